@@ -1,0 +1,40 @@
+# Two commands do all the set-up: `make demo` and `make test`. Both reuse .venv once it is there.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: demo test bench format clean
+
+demo: $(VENV)/.installed
+	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
+	@$(BIN)/fyke run examples/panel.toml --overwrite
+
+test: $(VENV)/.installed-test
+	@echo "== formatter" && $(BIN)/ruff format --check .
+	@echo "== linter" && $(BIN)/ruff check .
+	@echo "== types" && $(BIN)/mypy
+	@echo "== import layers" && $(BIN)/lint-imports
+	@echo "== tests" && $(BIN)/python -m pytest
+
+bench: $(VENV)/.installed-test
+	@$(BIN)/python benchmarks/run.py
+
+format: $(VENV)/.installed-test
+	@$(BIN)/ruff format . && $(BIN)/ruff check --fix .
+
+clean:
+	rm -rf $(VENV) .pytest_cache .mypy_cache .ruff_cache .hypothesis
+
+$(VENV)/bin/python:
+	@echo "== making $(VENV)"
+	@$(PYTHON) -m venv $(VENV)
+
+$(VENV)/.installed: $(VENV)/bin/python pyproject.toml
+	@echo "== installing fyke and what it needs into $(VENV) (a minute on the first call)"
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e .
+	@touch $@
+
+$(VENV)/.installed-test: $(VENV)/bin/python pyproject.toml
+	@echo "== installing fyke and its test tools into $(VENV) (a minute on the first call)"
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[test]"
+	@touch $@ $(VENV)/.installed

@@ -1,0 +1,1 @@
+"""fyke simulates fishing and aquaculture netting in water."""

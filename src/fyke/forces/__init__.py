@@ -1,0 +1,1 @@
+"""What acts on the knots: tension, water, weight; values and tangents side by side."""

@@ -1,0 +1,34 @@
+"""Frame: everything known of a net at one moment."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """The state of a net and the forces on it at one time.
+
+    time: s; position, velocity: (n, 3) m, m/s; tension: (m,) N, 0 where slack; bar_drag: (m,) N, force of the
+    water on a bar along the undisturbed current at it; bar_lift: (m,) N, size of the part across it;
+    water_force: (n, 3) N, drag and lift gathered at the knots, half of every bar and all of a knot's own;
+    hydrodynamic_force: (3,) N, their sum; support_reaction: (3,) N, force of the net on its supports;
+    kinetic_energy: J, added mass included; unbalanced_force: N, largest on a free knot.
+    """
+
+    time: float
+    position: Array
+    velocity: Array
+    tension: Array
+    bar_drag: Array
+    bar_lift: Array
+    water_force: Array
+    hydrodynamic_force: Array
+    support_reaction: Array
+    kinetic_energy: float
+    unbalanced_force: float

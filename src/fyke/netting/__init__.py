@@ -1,0 +1,1 @@
+"""Geometry of netting: twine, mesh lattices, panels, lines. Numpy only."""

@@ -1,0 +1,100 @@
+"""Mesh lattices of a rectangular panel: which knots, which bars, how far apart.
+
+Knots have a row and a column (i, j), i along the width and j along the height. Diamond netting has a knot wherever
+i + j is even, i = 0 .. 2 n, one half mesh diagonal apart; square netting has a knot at every (i, j), i = 0 .. n,
+one bar apart. Bars of diamond netting run along the lattice diagonals, none along the frame; bars of square
+netting run along rows and columns, those along the frame included.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+MeshKind = Literal["diamond", "square"]
+Edge = Literal["edges", "top", "corners", "none"]
+
+# Lattice intervals per mesh along an axis.
+INTERVALS = {"diamond": 2, "square": 1}
+
+
+@dataclass(frozen=True)
+class Lattice:
+    """Knots (n, 2) as (i, j) and bars (m, 2) as knot indices; intervals: the largest i and j."""
+
+    knots: NDArray[np.int64]
+    bars: NDArray[np.int64]
+    intervals: tuple[int, int]
+
+    def held(self, where: Edge) -> NDArray[np.bool_]:
+        """Knots (n,) that are held: on all four edges, on the top row, on the four corners, or none."""
+        i, j = self.knots.T
+        at_side = (i == 0) | (i == self.intervals[0])
+        at_end = (j == 0) | (j == self.intervals[1])
+        if where == "edges":
+            return at_side | at_end
+        if where == "corners":
+            return at_side & at_end
+        if where == "top":
+            return j == self.intervals[1]
+        return np.zeros(len(i), dtype=bool)
+
+
+def lattice(mesh: MeshKind, meshes: tuple[int, int]) -> Lattice:
+    """Return the lattice of a panel of so many meshes along the width and the height.
+
+    An 8 x 8 diamond panel has 145 knots and 256 bars, an 8 x 8 square panel 81 and 144.
+    """
+    ni, nj = (INTERVALS[mesh] * count for count in meshes)
+    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(ni + 1), np.arange(nj + 1), indexing="ij"))
+    if mesh == "diamond":
+        there = (i + j) % 2 == 0
+        i, j = i[there], j[there]
+        steps = ((1, 1), (1, -1))
+    else:
+        steps = ((1, 0), (0, 1))
+    index = np.full((ni + 1, nj + 1), -1, dtype=np.int64)
+    index[i, j] = np.arange(len(i))
+    bars = []
+    for di, dj in steps:
+        inside = (i + di <= ni) & (j + dj >= 0) & (j + dj <= nj)
+        start = index[i[inside], j[inside]]
+        bars.append(np.column_stack([start, index[i[inside] + di, j[inside] + dj]]))
+    all_bars = np.concatenate(bars)
+    # Bars in the order of their first knot, so that neighbours in space are neighbours in memory.
+    order = np.lexsort((all_bars[:, 1], all_bars[:, 0]))
+    return Lattice(np.column_stack([i, j]), all_bars[order], (ni, nj))
+
+
+def hung_size(
+    mesh: MeshKind, meshes: tuple[int, int], bar_length: float, ratios: tuple[float, float]
+) -> tuple[float, float]:
+    """Width and height (m) of a panel hung at ratios E1, E2 of its fully stretched width and height.
+
+    The stretched size is meshes x 2 bars for diamond netting and meshes x 1 bar for square netting.
+    """
+    bars_per_mesh = INTERVALS[mesh]
+    return (meshes[0] * bars_per_mesh * bar_length * ratios[0], meshes[1] * bars_per_mesh * bar_length * ratios[1])
+
+
+def hanging_ratios(
+    mesh: MeshKind, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
+) -> tuple[float, float]:
+    """Return E1, E2: width and height over the fully stretched ones. Unloaded diamonds have E1^2 + E2^2 = 1."""
+    full = hung_size(mesh, meshes, bar_length, (1.0, 1.0))
+    return (size[0] / full[0], size[1] / full[1])
+
+
+def flat_strain(
+    mesh: MeshKind, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
+) -> tuple[float, ...]:
+    """Strain of the bars of a flat panel spread on a frame of this size; negative where slack.
+
+    One value for diamond netting, sqrt(E1^2 + E2^2) - 1; two for square netting, E1 - 1 along the width and
+    E2 - 1 along the height.
+    """
+    e1, e2 = hanging_ratios(mesh, meshes, bar_length, size)
+    return (float(np.hypot(e1, e2)) - 1.0,) if mesh == "diamond" else (e1 - 1.0, e2 - 1.0)

@@ -1,0 +1,62 @@
+"""Twine and its materials."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .elastic import ElasticLaw
+
+
+@dataclass(frozen=True)
+class Material:
+    """A fibre: density (kg/m3), modulus (Pa, None where no source gives one) and where both were read."""
+
+    name: str
+    density: float
+    youngs_modulus: float | None
+    source: str
+
+
+# Moduli of rope-laid fibre follow from E = (EA/MBL)(MBL/d^2) 4/pi with the rope properties listed by MoorPy
+# (MoorProps_default.yaml): PA 5 x 207e6, PES 14 x 308e6, UHMWPE 56 x 580e6 Pa. Published moduli of netting
+# spread from 40 MPa to 2 GPa, so a study should give its own.
+_ROPE = "MoorPy MoorProps_default.yaml: density, quasi-static EA/MBL and MBL/d^2"
+MATERIALS: dict[str, Material] = {
+    m.name: m
+    for m in (
+        Material("PA", 1140.0, 5 * 207e6 * 4 / np.pi, _ROPE),
+        Material("PES", 1380.0, 14 * 308e6 * 4 / np.pi, _ROPE),
+        Material("UHMWPE", 975.0, 56 * 580e6 * 4 / np.pi, _ROPE),
+        Material(
+            "PE",
+            950.0,
+            345.37e6 * 4 / np.pi,
+            "density: textbook value; modulus 4 C1/pi of T = d^2 C1 strain^C2 with C1 = 345.37 MPa, C2 = 1.0121 "
+            "(Wilson 1967, as used by Bi et al. 2014)",
+        ),
+        Material("PP", 910.0, None, "density: Korean fibre table, JAKO200415875836662; no modulus read"),
+    )
+}
+
+
+@dataclass(frozen=True)
+class Twine:
+    """A twine as the bars of the netting need it.
+
+    density: of the twine (kg/m3); diameter: m; damping_time: retardation time of the Kelvin-Voigt damping (s),
+    tension = T(strain) + damping_time dT/dt, zero by default and never letting a bar push.
+    """
+
+    name: str
+    density: float
+    diameter: float
+    law: ElasticLaw
+    damping_time: float = 0.0
+    material: str = ""
+
+    @property
+    def area(self) -> float:
+        """Cross-section pi d^2 / 4 (m2)."""
+        return float(np.pi * self.diameter**2 / 4.0)

@@ -1,0 +1,1 @@
+"""Results on disk and the figures derived from them."""

@@ -1,0 +1,1 @@
+"""System: the frozen arrays that the forces and solvers work on."""

@@ -1,0 +1,1 @@
+"""Currents: the velocity of the water at points and times."""
