@@ -1,0 +1,145 @@
+"""The keys of the case file as the models know them: which table a key stands in, and which key was meant."""
+
+from __future__ import annotations
+
+import difflib
+import types
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic.fields import FieldInfo
+
+from .fields import Table
+from .places import Path
+from .schema import Case
+from .written import assignment
+
+_NEAR = 0.6
+
+
+@dataclass(frozen=True)
+class Spot:
+    """A key of the file: path, the model of the table around it, and its field, None for an unknown key."""
+
+    path: Path
+    table: type[Table]
+    field: FieldInfo | None
+
+    @property
+    def key(self) -> str:
+        """The last step of the path."""
+        return str(self.path[-1]) if self.path else ""
+
+    @property
+    def meaning(self) -> str:
+        """What the key is for, with its unit."""
+        return (self.field.description if self.field else None) or "a value"
+
+    @property
+    def choices(self) -> list[str]:
+        """The allowed words of a field that is a choice, or of the kind of a table that has several."""
+        if self.field is None:
+            return []
+        return _literals(self.field.annotation) or [_kind(model) for model in _models(self.field.annotation)]
+
+
+def follow(location: tuple[str | int, ...]) -> Spot:
+    """Follow a location as pydantic gives it, which names the kind of a table as a step of its own."""
+    path: list[str | int] = []
+    here: Any = Case
+    table: type[Table] = Case
+    field: FieldInfo | None = None
+    for step in location:
+        models = _models(here)
+        if len(models) > 1:
+            here = next((model for model in models if _kind(model) == step), None)
+            continue
+        if step == "[key]":
+            continue
+        path.append(step)
+        if models:
+            table, field = models[0], fields_of(models[0]).get(str(step))
+            here = field.annotation if field else None
+        else:
+            inner = get_args(here)
+            here = inner[-1] if get_origin(here) is dict else inner[0] if inner else None
+    return Spot(tuple(path), table, field)
+
+
+def fields_of(table: type[Table]) -> dict[str, FieldInfo]:
+    """Return the fields of a table by the keys of the file."""
+    return {field.alias or name: field for name, field in table.model_fields.items()}
+
+
+def nearest(word: str, known: Iterable[str], cutoff: float = _NEAR) -> str:
+    """Return the known word that is most like this one, "" when none is."""
+    near = difflib.get_close_matches(word, list(known), n=1, cutoff=cutoff)
+    return near[0] if near else ""
+
+
+def cure_for_unknown(key: str, table: type[Table]) -> str:
+    """Say which key was meant, or where this one belongs."""
+    close = nearest(key, fields_of(table), cutoff=0.8)
+    homes = [name for name, model in _tables().items() if key in fields_of(model)]
+    if homes and not close:
+        return f"'{key}' belongs in {' or '.join(homes)}"
+    near = close or nearest(key, fields_of(table))
+    return f"did you mean '{near}'?" if near else "leave it out, or choose one of these keys"
+
+
+def example(table: type[Table]) -> str:
+    """Return the keys that a table must have, with values to start from."""
+    needed = [(key, field) for key, field in fields_of(table).items() if field.is_required()]
+    return ", ".join(assignment(key, (field.examples or ["..."])[0]) for key, field in needed)
+
+
+def cure_for_missing(key: str, field: FieldInfo) -> str:
+    """Say what to add, with an example."""
+    models = _models(field.annotation)
+    if models:
+        return f"add the table [{key}] with {example(models[0])}"
+    if key == "gear":
+        return f"add a table [[gear]] with {example(_models(get_args(field.annotation)[0])[0])}"
+    if get_origin(field.annotation) is dict:
+        return f"add a table [{key}.main] with {example(_models(get_args(field.annotation)[1])[0])}"
+    return f"add {assignment(key, (field.examples or ['...'])[0])}"
+
+
+def _models(annotation: Any) -> list[type[Table]]:
+    if isinstance(annotation, type) and issubclass(annotation, Table):
+        return [annotation]
+    if get_origin(annotation) is Annotated:
+        return _models(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, types.UnionType):
+        return [model for part in get_args(annotation) for model in _models(part)]
+    return []
+
+
+def _literals(annotation: Any) -> list[str]:
+    if get_origin(annotation) is Literal:
+        return [str(word) for word in get_args(annotation)]
+    if get_origin(annotation) in (Union, types.UnionType):
+        return [word for part in get_args(annotation) for word in _literals(part)]
+    return []
+
+
+def _kind(model: type[Table]) -> str:
+    return _literals(model.model_fields["kind"].annotation)[0]
+
+
+def _tables() -> dict[str, type[Table]]:
+    """Every table of the file under the name that a reader would look for."""
+    tables: dict[str, type[Table]] = {}
+    for key, field in fields_of(Case).items():
+        inner = get_args(field.annotation)
+        if get_origin(field.annotation) is dict:
+            tables[f"[{key}.NAME]"] = inner[1]
+        elif get_origin(field.annotation) is tuple:
+            tables[f"[[{key}]]"] = inner[0]
+        else:
+            models = _models(field.annotation)
+            for model in models:
+                also = f' with kind = "{_kind(model)}"' if len(models) > 1 else ""
+                tables[f"[{key}]{also}"] = model
+    return tables

@@ -1,0 +1,68 @@
+"""What a case may hold but looks odd: warnings with the number and the limit."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ..netting.lattice import flat_strain, hanging_ratios
+from .check import LARGEST_STRAIN
+from .schema import Case
+
+LEAST_HANGING = 0.05
+
+
+def warnings(case: Case) -> tuple[str, ...]:
+    """Return one sentence for everything that looks odd in a checked case."""
+    return (*_floating(case), *_thin_knots(case), *_frames(case), *_unused(case))
+
+
+def _floating(case: Case) -> Iterator[str]:
+    water = case.water.density
+    for name, twine in case.twine.items():
+        density = twine.resolved_density or 0.0
+        if density < water:
+            yield (f"Twine '{name}' floats: {density:g} kg/m3 is below the water's {water:g} kg/m3.")
+    for name, netting in case.netting.items():
+        if netting.knot_diameter and netting.knot_density and netting.knot_density < water:
+            yield (
+                f"The knots of netting '{name}' float: {netting.knot_density:g} kg/m3 is below "
+                f"the water's {water:g} kg/m3."
+            )
+
+
+def _thin_knots(case: Case) -> Iterator[str]:
+    for name, netting in case.netting.items():
+        knot, twine = netting.knot_diameter, case.twine[netting.twine].diameter
+        if knot is not None and knot < twine:
+            yield (
+                f"The knots of netting '{name}' are thinner than its twine: {knot * 1e3:g} mm against "
+                f"{twine * 1e3:g} mm."
+            )
+
+
+def _frames(case: Case) -> Iterator[str]:
+    for number, panel in enumerate(case.gear, 1):
+        netting = case.netting[panel.netting]
+        bars = (netting.mesh, panel.meshes, netting.bar_length, panel.size)
+        what = f"panel '{panel.name or number}'"
+        strain = max(flat_strain(*bars))
+        # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
+        if strain > 1e-9:
+            yield (
+                f"The bars of {what} are stretched on its frame: they start with a strain of {strain * 100:.2g} % "
+                f"(refused above {LARGEST_STRAIN * 100:g} %)."
+            )
+        for side, ratio in zip(("width", "height"), hanging_ratios(*bars), strict=True):
+            if ratio < LEAST_HANGING:
+                yield (
+                    f"The {side} of {what} is {ratio * 100:.2g} % of the stretched netting "
+                    f"(odd below {LEAST_HANGING * 100:g} %); check the unit of its size."
+                )
+
+
+def _unused(case: Case) -> Iterator[str]:
+    worn = {panel.netting for panel in case.gear}
+    for name in sorted(case.netting.keys() - worn):
+        yield f"Netting '{name}' is not used by any gear."
+    for name in sorted(case.twine.keys() - {netting.twine for netting in case.netting.values()}):
+        yield f"Twine '{name}' is not used by any netting."

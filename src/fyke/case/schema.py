@@ -1,0 +1,216 @@
+"""The case file as a model: every table and key with its unit, range, default and an example to write."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, PrivateAttr
+
+from ..netting.twine import Twine
+from .fields import Coefficient, Force, Name, Table, Time, Title, Tolerance, Velocity
+from .gear import NettingSpec, PanelSpec
+from .quantity import Quantity, wrong
+from .twine import TwineSpec
+from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
+
+
+def _static_by_default(value: Any) -> Any:
+    return {"kind": "static"} | value if isinstance(value, dict) else value
+
+
+def _named_tables(what: str) -> Callable[[Any], Any]:
+    def check(value: Any) -> Any:
+        if isinstance(value, dict) and not any(isinstance(inner, dict) for inner in value.values()):
+            raise wrong(f"tables with a name each, [{what}.NAME]", f"give the {what} a name: [{what}.main]")
+        return value
+
+    return check
+
+
+class Water(Table):
+    """The water."""
+
+    density: Annotated[float, Quantity(DENSITY, 0.0, 1e5)] = Field(default=1000.0, description="kg/m3")
+    kinematic_viscosity: Annotated[float, Quantity(VISCOSITY, 0.0, 1e3, open_below=True)] = Field(
+        default=1.0e-6, description="m2/s; only Reynolds numbers use it"
+    )
+    gravity: Annotated[float, Quantity(ACCELERATION, 0.0, 1e3)] = Field(
+        default=9.81, description="m/s2, downwards"
+    )
+
+
+class Current(Table):
+    """The current, the same everywhere."""
+
+    velocity: Velocity = Field(description="m/s, three components", examples=[[0.5, 0.0, 0.0]])
+
+
+class ConstantBarDrag(Table):
+    """Constant coefficients of a bar on the area d * current length."""
+
+    law: Literal["constant"] = Field(description="coefficient law", examples=["constant"])
+    normal: Coefficient = Field(description="of the flow across the bar", examples=[1.2])
+    tangential: Coefficient = Field(description="of the flow along the bar", examples=[0.1])
+
+
+class ConstantKnotDrag(Table):
+    """Constant coefficient of a knot on the area pi d^2 / 4."""
+
+    law: Literal["constant"] = Field(description="coefficient law", examples=["constant"])
+    drag: Coefficient = Field(description="of a sphere", examples=[1.0])
+
+
+# A further law is a further model in these unions, told apart by its law.
+BarDragSpec = ConstantBarDrag
+KnotDragSpec = ConstantKnotDrag
+
+
+class Drag(Table):
+    """Coefficient laws of bars and knots."""
+
+    bars: BarDragSpec = Field(
+        default=ConstantBarDrag(law="constant", normal=1.2, tangential=0.1), description="of the bars"
+    )
+    knots: KnotDragSpec = Field(
+        default=ConstantKnotDrag(law="constant", drag=1.0), description="of the knots"
+    )
+
+
+class AddedMass(Table):
+    """Added mass over the mass of the displaced water."""
+
+    bars: Coefficient = Field(default=1.0, description="of bars, across the bar only")
+    knots: Coefficient = Field(default=0.5, description="of knots, in every direction")
+
+
+class StaticSolve(Table):
+    """Find the equilibrium."""
+
+    kind: Literal["static"] = Field(description="static or dynamic", examples=["static"])
+    tolerance: Force = Field(default=1e-8, description="N, largest unbalanced force on a free knot")
+
+
+class DynamicSolve(Table):
+    """Step in time from the flat net at rest."""
+
+    kind: Literal["dynamic"] = Field(description="static or dynamic", examples=["dynamic"])
+    tolerance: Force = Field(
+        default=1e-8, description="N, largest unbalanced force on a free knot, of a static start"
+    )
+    duration: Time = Field(description="s, simulated time", examples=[2.0])
+    stepper: Literal["verner", "symplectic"] = Field(default="verner", description="time stepping method")
+    rtol: Tolerance = Field(default=1e-4, description="relative error per step, of adaptive steppers")
+    atol: Tolerance = Field(
+        default=1e-7, description="absolute error per step (m, m/s), of adaptive steppers"
+    )
+    max_step: Time | None = Field(default=None, description="s, largest time step", examples=["1 ms"])
+    settle_force: Force | None = Field(
+        default=None, description="N, end early when no free knot is further out of balance", examples=[1e-6]
+    )
+    settle_energy: Annotated[float, Quantity(ENERGY, 0.0, 1e9, open_below=True)] | None = Field(
+        default=None, description="J, end early when the kinetic energy stays below it", examples=["1 uJ"]
+    )
+
+
+SolveSpec = Annotated[
+    Annotated[StaticSolve | DynamicSolve, Field(discriminator="kind")], BeforeValidator(_static_by_default)
+]
+
+
+class Output(Table):
+    """What a dynamic run writes."""
+
+    every: Time | None = Field(
+        default=None, description="s between outputs, a hundredth of the duration by default", examples=[0.02]
+    )
+
+
+class Compare(Table):
+    """Measurements to lay over the result."""
+
+    positions: str = Field(
+        description='CSV file, beside the case file: columns knot,x,y,z (m), knot as row-column "i-j", '
+        "or x0,y0,z0,x,y,z",
+        examples=["measured.csv"],
+    )
+
+
+class Case(Table):
+    """A whole case file in SI units.
+
+    Made by load_case and parse_case, which also check what holds between tables and fill in text, path,
+    warnings and the names and sizes of the panels.
+    """
+
+    schema_version: Literal[1] = Field(alias="schema", description="version of this format", examples=[1])
+    title: Title = Field(default="", description="one line for figures and reports")
+    water: Water = Field(default=Water(), description="the water")
+    current: Current = Field(description="the current")
+    twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
+        Field(description="twines by name", examples=[{"main": {}}])
+    )
+    netting: Annotated[
+        dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
+    ] = Field(description="nettings by name")
+    gear: Annotated[tuple[PanelSpec, ...], Field(min_length=1)] = Field(
+        description="panels, one [[gear]] each"
+    )
+    drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
+    added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
+    solve: SolveSpec = Field(default=StaticSolve(kind="static"), description="how to solve")
+    output: Output = Field(default=Output(), description="what to write")
+    compare: Compare | None = Field(default=None, description="measurements")
+    _text: str = PrivateAttr(default="")
+    _path: Path | None = PrivateAttr(default=None)
+    _warnings: tuple[str, ...] = PrivateAttr(default=())
+
+    def model_post_init(self, context: Any) -> None:
+        """Take over what the file itself does not hold."""
+        known = context or {}
+        self._text = known.get("text", "")
+        self._path = known.get("path")
+        self._warnings = known.get("warnings", ())
+        for number, panel in enumerate(self.gear, 1):
+            if panel.netting in self.netting:
+                panel.settle(str(number) if len(self.gear) > 1 else "", self.netting[panel.netting])
+
+    @property
+    def text(self) -> str:
+        """The case file as it was read."""
+        return self._text
+
+    @property
+    def path(self) -> Path | None:
+        """Where the case was read; None for a text."""
+        return self._path
+
+    @property
+    def sha256(self) -> str:
+        """SHA-256 of the case file, 64 hexadecimal digits."""
+        return hashlib.sha256(self._text.encode()).hexdigest()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is allowed but looks odd, sentences with the number and the limit."""
+        return self._warnings
+
+    @property
+    def twines(self) -> dict[str, Twine]:
+        """The twines of the netting, by name."""
+        return {name: spec.twine(name) for name, spec in self.twine.items()}
+
+    @property
+    def positions_file(self) -> Path | None:
+        """Measured positions to compare with; a relative name counts from the folder of the case file."""
+        if self.compare is None:
+            return None
+        return (self._path.parent if self._path else Path()) / self.compare.positions
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON Schema (2020-12) of the case file, for editors that complete and check while typing."""
+    schema = Case.model_json_schema(by_alias=True)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema, "title": "fyke case file"}

@@ -1,0 +1,80 @@
+"""The case file that `fyke new` writes: a panel to start from, with every key in it."""
+
+from __future__ import annotations
+
+_TEMPLATE = """\
+# A case file of fyke. A number is in SI units; a text in quotes may carry a unit:
+#   length m mm cm km um in ft fathom    speed m/s cm/s mm/s kn km/h ft/s    time s ms us min h
+#   pressure Pa kPa MPa GPa N/mm2        density kg/m3 g/cm3 g/l            force N kN mN kgf
+# The axes: z up with still water at z = 0, x downstream. Lines that start with "# " show what may be added.
+schema = 1
+title = "Knotted nylon panel, 8 x 8 diamond meshes, on a square frame"
+
+[water]
+density = 1000.0                     # kg/m3
+kinematic_viscosity = 1.0e-6         # m2/s, for Reynolds numbers
+gravity = 9.81                       # m/s2
+
+[current]
+velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]
+
+[twine.main]                         # any number of twines, each with a name
+material = "PA"                      # PA, PES, PP, PE or UHMWPE: density and modulus where you give none
+density = 1140.0                     # kg/m3
+diameter = "1.5 mm"
+youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
+# law = { kind = "linear", youngs_modulus = "1.0 GPa" }
+# law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
+# law = { kind = "table", strain = [0.0, 0.05, 0.1], tension = [0.0, 20.0, 60.0] }   # N
+# damping_time = "0.1 ms"            # Kelvin-Voigt retardation time, 0 by default
+
+[netting.main]                       # any number of nettings, each with a name
+twine = "main"
+mesh = "diamond"                     # diamond | square
+bar_length = "30 mm"                 # knot centre to knot centre, unloaded
+knot_diameter = "3.5 mm"             # leave out for knotless netting
+# knot_density = 1140.0              # kg/m3, the twine's by default
+
+[[gear]]                             # one for every panel
+kind = "panel"
+# name = "left"                      # shown before the knot's row and column
+netting = "main"
+meshes = [8, 8]                      # along the width, along the height
+size = [0.3055, 0.3055]              # m, width and height of the frame; or, instead of it:
+# hanging_ratio = 0.6                # width over stretched width; the height follows from unloaded diamonds
+# hanging_ratio = [0.6, 0.7]         # width and height over the stretched ones
+centre = [0.0, 0.0, -0.5]            # m
+normal = [1.0, 0.0, 0.0]             # the panel's width axis is horizontal
+fixed = "edges"                      # edges | top | corners | none (dynamic only)
+
+[drag]
+bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
+knots = { law = "constant", drag = 1.0 }                       # on pi d^2 / 4
+
+[added_mass]                         # over the mass of the displaced water
+bars = 1.0                           # across the bar only
+knots = 0.5
+
+[solve]
+kind = "static"                      # static | dynamic
+# tolerance = 1e-8                   # N, largest unbalanced force on a free knot
+# For kind = "dynamic":
+# duration = 2.0                     # s
+# stepper = "verner"                 # verner | symplectic
+# rtol = 1e-4
+# atol = 1e-7
+# max_step = "1 ms"
+# settle_force = 1e-6                # N, end early once every free knot is balanced to this
+# settle_energy = 1e-9               # J, end early once the kinetic energy is below this
+
+[output]
+# every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
+
+# [compare]                          # measured positions to lay over the result
+# positions = "measured.csv"         # beside this file; columns knot,x,y,z (m), knot as "row-column"
+"""
+
+
+def template() -> str:
+    """Return a commented case file that runs as it is."""
+    return _TEMPLATE
