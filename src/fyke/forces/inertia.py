@@ -1,0 +1,121 @@
+"""Mass of the knots: lumped masses and the added mass of the bars, which turns with them.
+
+M_i = m_i I + sum over the bars at i of m_a (I - t t^T), with m_a half of C_a rho pi/4 d^2 l0: a bar drags water along
+only when it moves across itself.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from .compiled import OPTIONS
+from .total import TINY_LENGTH
+
+# Places of the symmetric 3 x 3 entries xx, yy, zz, xy, xz, yz in a row of six.
+
+
+@njit(**OPTIONS)
+def mass_matrices(x, el, out):  # type: ignore[no-untyped-def]
+    """Mass of every knot into out (n, 6) kg, symmetric entries xx, yy, zz, xy, xz, yz."""
+    for i in range(x.shape[0]):
+        out[i, 0] = out[i, 1] = out[i, 2] = el.knot_mass[i]
+        out[i, 3] = out[i, 4] = out[i, 5] = 0.0
+    for e in range(el.knot_a.shape[0]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        dx, dy, dz = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2]
+        m = el.bar_added_mass[e]
+        c = m / max(dx * dx + dy * dy + dz * dz, TINY_LENGTH)
+        xx, yy, zz = m - c * dx * dx, m - c * dy * dy, m - c * dz * dz
+        xy, xz, yz = -c * dx * dy, -c * dx * dz, -c * dy * dz
+        for i in (a, b):
+            out[i, 0] += xx
+            out[i, 1] += yy
+            out[i, 2] += zz
+            out[i, 3] += xy
+            out[i, 4] += xz
+            out[i, 5] += yz
+
+
+@njit(**OPTIONS)
+def invert_masses(mass, free):  # type: ignore[no-untyped-def]
+    """Invert symmetric matrices (n, 6) in place; zero for the held knots, so that they do not move."""
+    for i in range(mass.shape[0]):
+        xx, yy, zz, xy, xz, yz = mass[i]
+        c0 = yy * zz - yz * yz
+        c1 = xz * yz - xy * zz
+        c2 = xy * yz - xz * yy
+        s = free[i] / (xx * c0 + xy * c1 + xz * c2)
+        mass[i, 0] = s * c0
+        mass[i, 1] = s * (xx * zz - xz * xz)
+        mass[i, 2] = s * (xx * yy - xy * xy)
+        mass[i, 3] = s * c1
+        mass[i, 4] = s * c2
+        mass[i, 5] = s * (xy * xz - xx * yz)
+
+
+@njit(**OPTIONS)
+def kinetic_energy(mass, v):  # type: ignore[no-untyped-def]
+    """Half of sum v.M v (J); mass: (n, 6) kg as mass_matrices gives it."""
+    total = 0.0
+    for i in range(v.shape[0]):
+        p, q, r = v[i]
+        total += mass[i, 0] * p * p + mass[i, 1] * q * q + mass[i, 2] * r * r
+        total += 2.0 * (mass[i, 3] * p * q + mass[i, 4] * p * r + mass[i, 5] * q * r)
+    return 0.5 * total
+
+
+@njit(**OPTIONS)
+def largest_frequency(x, k, inverse_mass, el):  # type: ignore[no-untyped-def]
+    """Upper bound of the largest circular frequency (rad/s) of the net with all its bars taut.
+
+    k: (m,) N/m; inverse_mass: (n, 6) 1/kg. From v.K v = sum k (t.(v_b - v_a))^2 <= 2 sum k ((t.v_a)^2 + (t.v_b)^2)
+    follows omega^2 <= 2 max_i lambda(B_i), B_i = M_i^-1 sum over the bars at i of k t t^T; exact on a square lattice,
+    where it is 4 k/m. lambda <= trace(B^8)^(1/8), at most 3^(1/16) = 1.07 times too large in omega.
+    """
+    stiffness = np.zeros((x.shape[0], 6))
+    for e in range(k.shape[0]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        dx, dy, dz = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2]
+        c = k[e] / max(dx * dx + dy * dy + dz * dz, TINY_LENGTH)
+        for i in (a, b):
+            stiffness[i, 0] += c * dx * dx
+            stiffness[i, 1] += c * dy * dy
+            stiffness[i, 2] += c * dz * dz
+            stiffness[i, 3] += c * dx * dy
+            stiffness[i, 4] += c * dx * dz
+            stiffness[i, 5] += c * dy * dz
+    largest = 0.0
+    m, s = np.zeros((3, 3)), np.zeros((3, 3))
+    for i in range(x.shape[0]):
+        if el.free[i] > 0.0:
+            _unpack(inverse_mass[i], m)
+            _unpack(stiffness[i], s)
+            product = _times(m, s)
+            trace = product[0, 0] + product[1, 1] + product[2, 2]
+            if trace > 0.0:
+                square = _times(product / trace, product / trace)
+                fourth = _times(square, square)
+                eighth = 0.0
+                for p in range(3):
+                    for q in range(3):
+                        eighth += fourth[p, q] * fourth[q, p]
+                largest = max(largest, trace * eighth**0.125)
+    return np.sqrt(2.0 * largest)
+
+
+@njit(**OPTIONS)
+def _unpack(row, out):  # type: ignore[no-untyped-def]
+    out[0, 0], out[1, 1], out[2, 2] = row[0], row[1], row[2]
+    out[0, 1] = out[1, 0] = row[3]
+    out[0, 2] = out[2, 0] = row[4]
+    out[1, 2] = out[2, 1] = row[5]
+
+
+@njit(**OPTIONS)
+def _times(a, b):  # type: ignore[no-untyped-def]
+    out = np.zeros((3, 3))
+    for p in range(3):
+        for q in range(3):
+            out[p, q] = a[p, 0] * b[0, q] + a[p, 1] * b[1, q] + a[p, 2] * b[2, q]
+    return out

@@ -1,0 +1,119 @@
+"""Derived figures of netting: hanging ratios, solidity, twine area, mass.
+
+The cell that repeats itself over a panel has one knot and two bars. With bar length a and hanging ratios E1,
+E2 its area is 2 a^2 E1 E2 for diamond netting (mesh diagonals 2 a E1 and 2 a E2) and a^2 E1 E2 for square
+netting.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from .lattice import MeshKind, hanging_ratios
+from .net import Net, Panel
+
+KILOGRAM_PER_METRE_IN_TEX = 1e6  # tex is g/km
+
+
+@dataclass(frozen=True)
+class PanelMeasures:
+    """Figures of a panel as it is hung on its frame, before it stretches.
+
+    hanging_ratios: width and height over the fully stretched ones; outline_area: of the frame (m2); solidity:
+    solid projected area over outline area; twine_area: diameter times length of all bars, overlaps counted
+    twice (m2); mass_per_area: dry mass of a cell, twine and knot, over its area (kg/m2); mesh_length: full
+    stretched mesh, two bars, knot centre to knot centre (m); rtex: mass per length of the twine (tex = g/km)
+    if it is as dense as stated all through its cross-section.
+    """
+
+    hanging_ratios: tuple[float, float]
+    outline_area: float
+    solidity: float
+    twine_area: float
+    mass_per_area: float
+    mesh_length: float
+    rtex: float
+
+
+@dataclass(frozen=True)
+class NetMeasures:
+    """Figures of a whole net: counts of knots, bars and fixed knots; mass in air (kg); volume (m3)."""
+
+    knots: int
+    bars: int
+    fixed: int
+    mass: float
+    volume: float
+
+
+def solidity(
+    mesh: MeshKind,
+    bar_length: float,
+    ratios: tuple[float, float],
+    diameter: float,
+    knot_diameter: float = 0.0,
+) -> float:
+    """Solid projected area over outline area of flat netting, at most 1.
+
+    bar_length a, diameter d and knot_diameter d_k in m, 0 for knotless; ratios E1, E2.
+
+        knotless diamond    x - x^2 / 4, x = d / (a E1 E2)
+        knotless square     d / (a E1) + d / (a E2) - d^2 / (a^2 E1 E2), which is 2 d/a - (d/a)^2 when taut
+        knotted diamond     (2 d (a - d_k) + pi d_k^2 / 4) / (2 a^2 E1 E2)
+        knotted square      (d (a E1 - d_k) + d (a E2 - d_k) + pi d_k^2 / 4) / (a^2 E1 E2)
+
+    They count the area of straight bars and of discs for knots, less the overlap. Diamonds are counted with
+    their whole twine, E1^2 + E2^2 = 1; netting hung slacker than that has its twine crowded into the outline.
+    A knot no thicker than the twine hides in the crossing and counts as none.
+    """
+    a, d, dk = bar_length, diameter, knot_diameter
+    e1, e2 = ratios
+    if mesh == "square":
+        cell = a**2 * e1 * e2
+        ends = dk if dk > d else d / 2.0
+        sides = d * (a * e1 - ends) + d * (a * e2 - ends)
+    else:
+        cell = 2.0 * a**2 * e1 * e2
+        # Two knotless bars share a rhombus of area d^2 / (2 E1 E2) at every crossing.
+        ends = dk if dk > d else d / (4.0 * e1 * e2)
+        sides = 2.0 * d * (a - ends)
+    disc = np.pi * dk**2 / 4.0 if dk > d else 0.0
+    return float(min(1.0, (sides + disc) / cell))
+
+
+def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
+    """Return the figures of one panel of a net, hung on its frame."""
+    twine = next(t for t in net.twines if t.name == panel.twine)
+    mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
+    ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
+    cells = panel.meshes[0] * panel.meshes[1]
+    area = panel.size[0] * panel.size[1]
+    density = float(np.mean(net.knot_density[slice(*panel.knots)]))
+    cell_mass = 2.0 * panel.bar_length * twine.density * twine.area
+    cell_mass += density * np.pi * panel.knot_diameter**3 / 6.0
+    return PanelMeasures(
+        hanging_ratios=ratios,
+        outline_area=area,
+        solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
+        twine_area=float(twine.diameter * np.sum(net.rest_length[slice(*panel.bars)])),
+        mass_per_area=float(cell_mass * cells / area),
+        mesh_length=2.0 * panel.bar_length,
+        rtex=twine.density * twine.area * KILOGRAM_PER_METRE_IN_TEX,
+    )
+
+
+def measure_net(net: Net) -> NetMeasures:
+    """Return the figures of a whole net: bars are cylinders of their unloaded length, knots spheres."""
+    area = np.array([t.area for t in net.twines])[net.twine_of_bar]
+    density = np.array([t.density for t in net.twines])[net.twine_of_bar]
+    bar_volume = area * net.rest_length
+    knot_volume = np.pi * net.knot_diameter**3 / 6.0
+    return NetMeasures(
+        knots=net.knot_count,
+        bars=net.bar_count,
+        fixed=int(np.count_nonzero(net.fixed)),
+        mass=float(density @ bar_volume + net.knot_density @ knot_volume),
+        volume=float(np.sum(bar_volume) + np.sum(knot_volume)),
+    )

@@ -1,0 +1,117 @@
+"""From the case to the net, and from the net to the system."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..netting.net import Net
+from ..water.current import Current, UniformCurrent
+from .elements import Elements
+from .system import System
+
+Array = NDArray[np.float64]
+
+# Strain at which the secant of an elastic law stands for its stiffness where one number is needed.
+REFERENCE_STRAIN = 0.01
+
+
+@dataclass(frozen=True)
+class Water:
+    """Density (kg/m3), kinematic viscosity (m2/s), gravity (m/s2)."""
+
+    density: float = 1000.0
+    kinematic_viscosity: float = 1.0e-6
+    gravity: float = 9.81
+
+
+@dataclass(frozen=True)
+class Coefficients:
+    """Constant drag and added-mass coefficients, all without unit.
+
+    bar_normal, bar_tangential: on the area d x current length (both; no pi); knot: on pi/4 d_k^2;
+    added_mass_bar: on the displaced volume, normal to the bar only; added_mass_knot: on the displaced volume.
+    Defaults: Bessonneau & Marichal 1998 for the bars, potential flow for the added masses (cylinder 1, sphere 1/2).
+    """
+
+    bar_normal: float = 1.2
+    bar_tangential: float = 0.1
+    knot: float = 1.0
+    added_mass_bar: float = 1.0
+    added_mass_knot: float = 0.5
+
+
+def make_system(
+    net: Net,
+    *,
+    current: Current | tuple[float, float, float] = (0.0, 0.0, 0.0),
+    water: Water | None = None,
+    coefficients: Coefficients | None = None,
+) -> System:
+    """Freeze a net in water: masses, weights and drag coefficients of every knot and bar."""
+    w = water or Water()
+    c = coefficients or Coefficients()
+    area = np.array([t.area for t in net.twines])[net.twine_of_bar]
+    density = np.array([t.density for t in net.twines])[net.twine_of_bar]
+    diameter = net.bar_diameter
+    volume = area * net.rest_length
+    knot_volume = np.pi / 6.0 * net.knot_diameter**3
+    mass = _to_knots(net, density * volume) + net.knot_density * knot_volume
+    sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
+    weight = net.load.copy()
+    weight[:, 2] -= w.gravity * sinking
+    rows, first, end, stiffness = _laws(net)
+    linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
+    damping = np.array([t.damping_time for t in net.twines])[net.twine_of_bar]
+    elements = Elements(
+        knot_a=np.ascontiguousarray(net.bars[:, 0], dtype=np.int32),
+        knot_b=np.ascontiguousarray(net.bars[:, 1], dtype=np.int32),
+        rest_length=net.rest_length.copy(),
+        stiffness=stiffness,
+        damping_time=damping,
+        normal_drag=0.25 * w.density * c.bar_normal * diameter,
+        tangential_drag=0.25 * w.density * c.bar_tangential * diameter,
+        bar_added_mass=0.5 * c.added_mass_bar * w.density * volume,
+        law_rows=rows,
+        law_first=first,
+        law_end=end,
+        linear=linear,
+        damped=bool(np.any(damping > 0.0)),
+        knot_drag=0.5 * w.density * c.knot * np.pi / 4.0 * net.knot_diameter**2,
+        knot_mass=mass + c.added_mass_knot * w.density * knot_volume,
+        weight=weight,
+        free=(~net.fixed).astype(float),
+    )
+    flow = current if not isinstance(current, tuple) else UniformCurrent(current)
+    return System(net, flow, elements, float(w.gravity * sinking.sum()))
+
+
+def _to_knots(net: Net, per_bar: Array) -> Array:
+    """Half of a bar's share to each end, (n,)."""
+    out = np.zeros(net.knot_count)
+    np.add.at(out, net.bars, 0.5 * per_bar[:, None])
+    return out
+
+
+def _laws(net: Net) -> tuple[Array, NDArray[np.int32], NDArray[np.int32], Array]:
+    """Rows of all twines' laws, first and end row of every bar, and stiffness (N/m) of every bar."""
+    tables = [t.law.rows(t.diameter) for t in net.twines]
+    end = np.cumsum([len(t) for t in tables])
+    first = end - [len(t) for t in tables]
+    secant = np.array([_tension(t, REFERENCE_STRAIN) / REFERENCE_STRAIN for t in tables])
+    which = net.twine_of_bar
+    return (
+        np.concatenate(tables),
+        first[which].astype(np.int32),
+        end[which].astype(np.int32),
+        secant[which] / net.rest_length,
+    )
+
+
+def _tension(rows: Array, strain: float) -> float:
+    """Tension (N) at one strain > 0 by the rows of netting.elastic."""
+    row = rows[np.searchsorted(rows[:, 0], strain, side="right") - 1]
+    x = strain - row[0]
+    return float(row[1] + row[2] * x + row[3] * x ** row[4])
