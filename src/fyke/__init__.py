@@ -1,1 +1,97 @@
 """fyke simulates fishing and aquaculture netting in water."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from .version import __version__
+
+if TYPE_CHECKING:
+    from .case import Case, CaseError, load_case, parse_case
+    from .netting.elastic import LinearLaw, PowerLaw, TableLaw
+    from .netting.line import line
+    from .netting.net import Net
+    from .netting.panel import panel
+    from .netting.twine import Twine
+    from .results import load, save
+    from .solve.dynamic import Settle, simulate
+    from .solve.outcome import Outcome
+    from .solve.result import Result
+    from .solve.static import solve_static
+    from .solve.symplectic import Symplectic
+    from .solve.verner import Verner
+    from .system.build import Coefficients, Water, build_net, build_system, make_system
+    from .system.system import State, System
+
+# Names are fetched when first used, so that `import fyke` and `fyke --help` are quick.
+_HOME = {
+    "Case": "case",
+    "CaseError": "case",
+    "Coefficients": "system.build",
+    "LinearLaw": "netting.elastic",
+    "Net": "netting.net",
+    "Outcome": "solve.outcome",
+    "PowerLaw": "netting.elastic",
+    "Result": "solve.result",
+    "Settle": "solve.dynamic",
+    "State": "system.system",
+    "Symplectic": "solve.symplectic",
+    "System": "system.system",
+    "TableLaw": "netting.elastic",
+    "Twine": "netting.twine",
+    "Verner": "solve.verner",
+    "Water": "system.build",
+    "build_net": "system.build",
+    "build_system": "system.build",
+    "line": "netting.line",
+    "load": "results",
+    "load_case": "case",
+    "make_system": "system.build",
+    "panel": "netting.panel",
+    "parse_case": "case",
+    "save": "results",
+    "simulate": "solve.dynamic",
+    "solve_static": "solve.static",
+}
+
+__all__ = [
+    "Case",
+    "CaseError",
+    "Coefficients",
+    "LinearLaw",
+    "Net",
+    "Outcome",
+    "PowerLaw",
+    "Result",
+    "Settle",
+    "State",
+    "Symplectic",
+    "System",
+    "TableLaw",
+    "Twine",
+    "Verner",
+    "Water",
+    "__version__",
+    "build_net",
+    "build_system",
+    "line",
+    "load",
+    "load_case",
+    "make_system",
+    "panel",
+    "parse_case",
+    "save",
+    "simulate",
+    "solve_static",
+]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module 'fyke' has no attribute '{name}'")
+    return getattr(import_module(f".{_HOME[name]}", __name__), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -72,7 +72,14 @@ def total_force(x, v, u, el, rel, g, out):  # type: ignore[no-untyped-def]
             inverse = 1.0 / max(length, TINY_LENGTH)
             tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
             fx, fy, fz = bar_water_force(
-                g[3, i], g[4, i], g[5, i], tx, ty, tz, el.normal_drag[e] * length, el.tangential_drag[e] * length
+                g[3, i],
+                g[4, i],
+                g[5, i],
+                tx,
+                ty,
+                tz,
+                el.normal_drag[e] * length,
+                el.tangential_drag[e] * length,
             )
             stretch = length - el.rest_length[e]
             if el.linear:

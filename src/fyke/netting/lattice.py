@@ -34,13 +34,13 @@ class Lattice:
         i, j = self.knots.T
         at_side = (i == 0) | (i == self.intervals[0])
         at_end = (j == 0) | (j == self.intervals[1])
-        if where == "edges":
-            return at_side | at_end
-        if where == "corners":
-            return at_side & at_end
-        if where == "top":
-            return j == self.intervals[1]
-        return np.zeros(len(i), dtype=bool)
+        held: dict[Edge, NDArray[np.bool_]] = {
+            "edges": at_side | at_end,
+            "corners": at_side & at_end,
+            "top": j == self.intervals[1],
+            "none": np.zeros(len(i), dtype=bool),
+        }
+        return held[where]
 
 
 def lattice(mesh: MeshKind, meshes: tuple[int, int]) -> Lattice:
@@ -77,7 +77,10 @@ def hung_size(
     The stretched size is meshes x 2 bars for diamond netting and meshes x 1 bar for square netting.
     """
     bars_per_mesh = INTERVALS[mesh]
-    return (meshes[0] * bars_per_mesh * bar_length * ratios[0], meshes[1] * bars_per_mesh * bar_length * ratios[1])
+    return (
+        meshes[0] * bars_per_mesh * bar_length * ratios[0],
+        meshes[1] * bars_per_mesh * bar_length * ratios[1],
+    )
 
 
 def hanging_ratios(

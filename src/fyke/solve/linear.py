@@ -62,7 +62,9 @@ class Pattern:
 
         stride = 3 * degree
         indices = (3 * blocks.indices[:, None] + np.arange(3)).reshape(-1)
-        per_column = [np.tile(indices[3 * p : 3 * q], 3) for p, q in zip(blocks.indptr, blocks.indptr[1:], strict=False)]
+        per_column = [
+            np.tile(indices[3 * p : 3 * q], 3) for p, q in zip(blocks.indptr, blocks.indptr[1:], strict=False)
+        ]
         safe = np.append(stride, 0)
         return cls(
             indices=np.concatenate(per_column or [np.zeros(0)]).astype(np.int32),
@@ -122,7 +124,9 @@ class SuperLU:
         from scipy.sparse.linalg import splu
 
         try:
-            handle = splu(self._pattern.matrix(data), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True})
+            handle = splu(
+                self._pattern.matrix(data), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}
+            )
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from error
         solve: Callable[[Array], Array] = handle.solve

@@ -1,10 +1,10 @@
 """Static equilibrium by a primal-dual interior-point method, from any start, without tuning.
 
-Two fields. Far from the solution the steps are those of second-order cones (solve.cone), in which a turning bar makes no
-false stretch. Once every bar is within NEAR of its cone's edge or inside for good, the steps are those of tension and
-slack (solve.central_path), which end quadratically. Both use the full tangent, the water's load included, one sparse LU
-an iteration and two solves with it. The end is judged on the true residual: the largest unbalanced force on a free knot
-with tensions by the elastic law itself.
+Two fields. Far from the solution the steps are those of second-order cones (solve.cone), in which a turning bar
+makes no false stretch. As soon as one bar is within NEAR of its cone's edge, the steps are those of tension and slack
+(solve.central_path), which end quadratically. Both use the full tangent, the water's load included, with one sparse LU
+an iteration and two solves with it. The end is judged on the true residual: the largest unbalanced force on a free
+knot with tensions by the elastic law itself.
 """
 
 from __future__ import annotations
@@ -69,7 +69,16 @@ class _Bars:
         z = np.zeros
         size = len(pattern.indptr) - 1
         return cls(
-            z((m, 3)), z(m), z(m), z(m), z((m, 3, 3)), z((n, 3)), z((n, 3)), z(size), z(len(pattern.indices)), z((n, 3))
+            z((m, 3)),
+            z(m),
+            z(m),
+            z(m),
+            z((m, 3, 3)),
+            z((n, 3)),
+            z((n, 3)),
+            z(size),
+            z(len(pattern.indices)),
+            z((n, 3)),
         )
 
 
@@ -156,7 +165,7 @@ class _Far:
         return bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < NEAR)
 
     def step(self) -> float:
-        """Predictor and corrector; returns the length of the step taken."""
+        """Predictor and corrector; return the length of the step taken."""
         s, b = self.s, self.s.b
         elastic(self.Y[:, 0] - s.el.rest_length, s.el, self.f, self.k)
         mu = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, 0.0)
@@ -169,7 +178,9 @@ class _Far:
         ratio = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, affine) / mu
         cone.cone_cross(self.scaling, self.dY, self.dZ, affine * affine, self.cross)
         self._direction(solve, min(1.0, max(ratio**3, LEAST_CENTRING)) * mu)
-        step = min(1.0, TO_EDGE * cone.cone_step(self.Y, self.dY), TO_EDGE * cone.cone_step(self.Z, self.dZ))
+        step: float = min(
+            1.0, TO_EDGE * cone.cone_step(self.Y, self.dY), TO_EDGE * cone.cone_step(self.Z, self.dZ)
+        )
         self.Y += step * self.dY
         self.Z += step * self.dZ
         s.accept(step)
@@ -202,7 +213,7 @@ class _Near:
         self.de, self.dT, self.dw = z(m), z(m), z(m)
 
     def step(self) -> float:
-        """Predictor and corrector; returns the length of the step taken."""
+        """Predictor and corrector; return the length of the step taken."""
         s, b = self.s, self.s.b
         np.subtract(self.w, self.T, out=self.r)
         self.r += b.f
@@ -220,7 +231,7 @@ class _Near:
         self.cross *= affine * turning
         turn = self._direction(solve, min(1.0, max(ratio**3, least)) * mu, self.bent)
         turning = LARGEST_ROTATION / max(turn, LARGEST_ROTATION)
-        step = min(turning, TO_EDGE_NEAR * path.path_step(self.T, self.w, self.dT, self.dw))
+        step: float = min(turning, TO_EDGE_NEAR * path.path_step(self.T, self.w, self.dT, self.dw))
         self.T += step * self.dT
         self.w += step * self.dw
         s.accept(step)
@@ -336,5 +347,7 @@ def _iterate(s: _Statics, tolerance: float, limit: int, on_progress: Progress | 
             )
         if on_progress is not None:
             done = np.log(first / max(s.residual, tolerance)) / max(np.log(first / tolerance), 1.0)
-            on_progress(float(np.clip(done, 0.0, 1.0)), f"iteration {s.iterations}, residual {s.residual:.1e} N")
+            on_progress(
+                float(np.clip(done, 0.0, 1.0)), f"iteration {s.iterations}, residual {s.residual:.1e} N"
+            )
     return "converged", f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations", ""

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..case.schema import Case
 from ..netting.net import Net
+from ..netting.panel import panel
+from ..netting.together import together
 from ..water.current import Current, UniformCurrent
 from .elements import Elements
 from .system import System
@@ -41,6 +44,47 @@ class Coefficients:
     knot: float = 1.0
     added_mass_bar: float = 1.0
     added_mass_knot: float = 0.5
+
+
+def build_net(case: Case) -> Net:
+    """Make the net of a case: all its gear, in the order of the file."""
+    twines = case.twines
+    parts = []
+    for gear in case.gear:
+        netting = case.netting[gear.netting]
+        parts.append(
+            panel(
+                twines[netting.twine],
+                mesh=netting.mesh,
+                meshes=gear.meshes,
+                bar_length=netting.bar_length,
+                size=gear.size,
+                knot_diameter=netting.knot_diameter or 0.0,
+                knot_density=netting.knot_density,
+                centre=gear.centre,
+                normal=gear.normal,
+                fixed=gear.fixed,
+                name=gear.name,
+            )
+        )
+    return together(parts)
+
+
+def build_system(net: Net, case: Case) -> System:
+    """Put a net into the water of a case."""
+    water = case.water
+    return make_system(
+        net,
+        current=case.current.velocity,
+        water=Water(water.density, water.kinematic_viscosity, water.gravity),
+        coefficients=Coefficients(
+            bar_normal=case.drag.bars.normal,
+            bar_tangential=case.drag.bars.tangential,
+            knot=case.drag.knots.drag,
+            added_mass_bar=case.added_mass.bars,
+            added_mass_knot=case.added_mass.knots,
+        ),
+    )
 
 
 def make_system(
@@ -85,7 +129,20 @@ def make_system(
         free=(~net.fixed).astype(float),
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
-    return System(net, flow, elements, float(w.gravity * sinking.sum()))
+    return System(net, flow, elements, float(w.gravity * sinking.sum()), _sources(net, c))
+
+
+def _sources(net: Net, c: Coefficients) -> tuple[str, ...]:
+    """One line for each law: what it says and where it comes from."""
+    return (
+        f"bar drag: constant C_n = {c.bar_normal:g}, C_t = {c.bar_tangential:g} on d x length, normal and tangential "
+        "parts apart (split: Choo & Casarella 1971, J. Hydronautics 5(4); values 1.2, 0.1: Bessonneau & Marichal 1998, "
+        "Ocean Eng. 25(7))",
+        f"knot drag: constant C_D = {c.knot:g} of a sphere on pi d^2/4",
+        f"added mass: C_a = {c.added_mass_bar:g} across a bar, {c.added_mass_knot:g} of a knot (potential flow: "
+        "cylinder 1, sphere 1/2)",
+        *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
+    )
 
 
 def _to_knots(net: Net, per_bar: Array) -> Array:

@@ -27,8 +27,8 @@ class State:
 class System:
     """A net in water, frozen: the net, the current and the arrays of the kernels.
 
-    weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; sources: one line for each law
-    and method, saying where it comes from.
+    weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; sources: one line for each
+    law, with what it says and where it comes from.
     """
 
     net: Net

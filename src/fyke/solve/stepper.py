@@ -1,0 +1,72 @@
+"""What a time stepper offers to the one time loop, and the stable step that explicit ones obey."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..forces.bars import bar_geometry, elastic
+from ..forces.inertia import invert_masses, largest_frequency, mass_matrices
+from ..system.system import State, System
+
+Array = NDArray[np.float64]
+Status = Literal["ok", "not_finite", "step_too_small"]
+
+
+@dataclass
+class Count:
+    """Steps taken and thrown away, force evaluations."""
+
+    steps: int = 0
+    rejected: int = 0
+    evaluations: int = 0
+
+
+class Run(Protocol):
+    """One stepper at work on one system."""
+
+    state: State
+    count: Count
+    step: float
+
+    def advance(self, end: float) -> Status:
+        """Go on towards the time end (s), as far as one call is worth; state is left untouched on failure."""
+
+
+class Stepper(Protocol):
+    """A method of time integration with its options."""
+
+    @property
+    def name(self) -> str:
+        """The word of the case file for it."""
+
+    @property
+    def max_step(self) -> float | None:
+        """Longest step wanted (s)."""
+
+    def start(self, system: System, state: State) -> Run:
+        """Begin a run."""
+
+    def stability_bound(self, system: System, state: State) -> float:
+        """Largest stable step (s) of the undamped or damped net in this state."""
+
+
+def highest_frequency(system: System, state: State) -> float:
+    """Upper bound (rad/s) of the frequencies of the net with all its bars taut, see forces.inertia."""
+    el = system.elements
+    m = system.net.bar_count
+    t, length, f, k = np.empty((m, 3)), np.empty(m), np.empty(m), np.empty(m)
+    bar_geometry(state.position, el, t, length)
+    elastic(length - el.rest_length, el, f, k)
+    inverse = np.empty((system.net.knot_count, 6))
+    mass_matrices(state.position, el, inverse)
+    invert_masses(inverse, el.free)
+    return float(largest_frequency(state.position, np.maximum(k, el.stiffness), inverse, el))
+
+
+def fluid_velocity(system: System, state: State) -> Array:
+    """Velocity of the water at the knots, (n, 3) m/s."""
+    return system.current.velocity(state.position, state.time)
