@@ -130,6 +130,12 @@ def test_odd_but_allowed_is_warned_of_with_number_and_limit(old, new, words):
     assert any(all(word in warning for word in words) for warning in warnings), warnings
 
 
+def test_tolerance_of_a_dynamic_case_is_warned_of():
+    dynamic = SMALL + '[solve]\nkind = "dynamic"\nduration = 1\n'
+    assert not any("tolerance" in warning for warning in parse_case(dynamic).warnings)
+    assert any("settle_force" in warning for warning in parse_case(dynamic + "tolerance = 1e-6\n").warnings)
+
+
 def test_sinking_well_hung_net_has_no_warning():
     assert parse_case(SMALL.replace('"PE"', '"PES"')).warnings == ()
 

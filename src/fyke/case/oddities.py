@@ -13,7 +13,7 @@ LEAST_HANGING = 0.05
 
 def warnings(case: Case) -> tuple[str, ...]:
     """Return one sentence for everything that looks odd in a checked case."""
-    return (*_floating(case), *_thin_knots(case), *_frames(case), *_unused(case))
+    return (*_floating(case), *_thin_knots(case), *_frames(case), *_unused(case), *_no_effect(case))
 
 
 def _floating(case: Case) -> Iterator[str]:
@@ -49,7 +49,7 @@ def _frames(case: Case) -> Iterator[str]:
         # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
         if strain > 1e-9:
             yield (
-                f"The bars of {what} are stretched on its frame: they start with a strain of {strain * 100:.2g} % "
+                f"The bars of {what} are stretched on its frame: their strain is {strain * 100:.2g} % "
                 f"(refused above {LARGEST_STRAIN * 100:g} %)."
             )
         for side, ratio in zip(("width", "height"), hanging_ratios(*bars), strict=True):
@@ -66,3 +66,8 @@ def _unused(case: Case) -> Iterator[str]:
         yield f"Netting '{name}' is not used by any gear."
     for name in sorted(case.twine.keys() - {netting.twine for netting in case.netting.values()}):
         yield f"Twine '{name}' is not used by any netting."
+
+
+def _no_effect(case: Case) -> Iterator[str]:
+    if case.solve.kind == "dynamic" and "tolerance" in case.solve.model_fields_set:
+        yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."

@@ -97,9 +97,7 @@ class DynamicSolve(Table):
     """Step in time from the flat net at rest."""
 
     kind: Literal["dynamic"] = Field(description="static or dynamic", examples=["dynamic"])
-    tolerance: Force = Field(
-        default=1e-8, description="N, largest unbalanced force on a free knot, of a static start"
-    )
+    tolerance: Force = Field(default=1e-8, description="N, of static cases; settle_force is for dynamic ones")
     duration: Time = Field(description="s, simulated time", examples=[2.0])
     stepper: Literal["verner", "symplectic"] = Field(default="verner", description="time stepping method")
     rtol: Tolerance = Field(default=1e-4, description="relative error per step, of adaptive steppers")

@@ -1,0 +1,37 @@
+"""The folder that a run writes to."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+from ..case.errors import CaseError, Problem
+
+RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
+_ALLOWED = "a folder that can be written and holds no result"
+
+
+def claim(folder: Path, *, overwrite: bool) -> None:
+    """Make a folder ready for a result; take an old result away when it may be overwritten.
+
+    Raises CaseError where the folder cannot be made or written, or already holds a result.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise _refusal(folder, "a file of this name", "choose another folder with -o DIR")
+    there = [name for name in (RESULT, SUMMARY, KNOTS, BARS) if (folder / name).exists()]
+    if there and not overwrite:
+        found = f"an earlier result: {', '.join(there)}"
+        raise _refusal(folder, found, "add --overwrite to replace it, or choose another folder with -o DIR")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+        for name in there:
+            (folder / name).unlink()
+    except OSError as error:
+        cure = "choose another folder with -o DIR, or give yourself the right to write there"
+        raise _refusal(folder, error.strerror or str(error), cure) from None
+
+
+def _refusal(folder: Path, found: str, cure: str) -> CaseError:
+    return CaseError([Problem(f"output folder {folder}", found, _ALLOWED, cure)])

@@ -1,0 +1,181 @@
+"""fyke run: from a case file to a folder with result, tables and figures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rich.text import Text
+
+from ..case import Case, CaseError, Problem, load_case
+from ..forces.evaluate import evaluate
+from ..results import (
+    Comparison,
+    MeasurementError,
+    Recorder,
+    compare,
+    load,
+    save,
+    summary,
+    write_summary,
+    write_tables,
+)
+from ..solve.outcome import Outcome
+from ..solve.result import Result
+from ..solve.run import planned_frames, solve_case
+from ..system.build import build_net, build_system
+from ..system.system import System
+from .folder import BARS, KNOTS, RESULT, SUMMARY, claim
+from .progress import progress_bar
+from .show import (
+    DONE,
+    NOT_CONVERGED,
+    WRONG_INPUT,
+    print_json,
+    print_problems,
+    print_rows,
+    print_warnings,
+    quantity,
+    stderr,
+    stdout,
+    vector,
+)
+
+
+@dataclass(frozen=True)
+class Wishes:
+    """The options of a run; output: folder to write to, None for the case's name."""
+
+    output: Path | None = None
+    figures: bool = True
+    overwrite: bool = False
+    quiet: bool = False
+    json: bool = False
+
+    @property
+    def talk(self) -> bool:
+        """Whether to print for a reader."""
+        return not (self.quiet or self.json)
+
+
+def run_case(file: Path, wishes: Wishes) -> int:
+    """Run a case file and return the exit code."""
+    folder = wishes.output or Path(file.stem)
+    try:
+        case = load_case(file)
+        claim(folder, overwrite=wishes.overwrite)
+        return _run(case, folder, wishes)
+    except (CaseError, MeasurementError) as error:
+        print_problems(error.problems)
+    except OSError as error:
+        found, cure = error.strerror or str(error), "free the disk, or choose another folder with -o DIR"
+        print_problems([Problem(f"output folder {folder}", found, "a folder that can be written", cure)])
+    return WRONG_INPUT
+
+
+def _run(case: Case, folder: Path, wishes: Wishes) -> int:
+    system = build_system(build_net(case), case)
+    measured = case.positions_file
+    if measured:
+        compare(_as_built(case, system), measured)  # a fault of the file is told before the solve, not after
+    result = _solve(case, system, folder / RESULT, wishes)
+    comparison = compare(result, measured) if measured else None
+    figures = _figures_of(case, result, comparison)
+    write_tables(result, folder)
+    write_summary(figures, folder)
+    pictures = _draw(result, folder, comparison) if wishes.figures else []
+    if wishes.json:
+        print_json(figures)
+    elif wishes.talk:
+        _show(case, figures, [RESULT, SUMMARY, KNOTS, BARS, *(one.name for one in pictures)], folder)
+    if result.outcome.ok:
+        return DONE
+    stderr().print(Text(f"{result.outcome.name}: {result.outcome.message}\n{result.outcome.advice}".rstrip()))
+    return NOT_CONVERGED
+
+
+def _solve(case: Case, system: System, file: Path, wishes: Wishes) -> Result:
+    """Solve a case, with every output on disk as it comes, and leave the whole result in the file."""
+    times, weight = planned_frames(case), system.weight_in_water
+    with (
+        Recorder(file, system.net, times=times, weight_in_water=weight, case_text=case.text) as recorder,
+        progress_bar(stderr(), shown=wishes.talk) as report,
+    ):
+        try:
+            result = solve_case(system, case, on_frame=recorder.append, on_progress=report)
+        except KeyboardInterrupt:
+            recorder.close()
+            result = load(file) if file.is_file() else _as_built(case, system)
+            save(result, file)
+        else:
+            recorder.finish(result)
+    return result
+
+
+def _as_built(case: Case, system: System) -> Result:
+    """Return the net at rest as it was built, which is all there is of a run stopped before its first output."""
+    frame = evaluate(system, system.at_rest())
+    outcome = Outcome(
+        name="interrupted",
+        message="stopped before the first output; the net is shown as it was built",
+        advice="run the case again",
+        solver="",
+        linear_solver="",
+        iterations=0,
+        factorizations=0,
+        residual=frame.unbalanced_force,
+        wall_time=0.0,
+    )
+    return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], case.text)
+
+
+def _figures_of(case: Case, result: Result, comparison: Comparison | None) -> dict[str, Any]:
+    direction = case.current.velocity
+    figures = summary(result, title=case.title, case_sha256=case.sha256, current_direction=direction)
+    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings]))
+    if comparison is not None:
+        figures["measured_knots"] = len(comparison.labels)
+        figures["measured_rms"] = comparison.rms
+        figures["measured_largest"] = comparison.largest
+        figures["measured_largest_knot"] = comparison.largest_label
+    return figures
+
+
+def _draw(result: Result, folder: Path, comparison: Comparison | None) -> list[Path]:
+    from ..report.figures import draw_all
+
+    return draw_all(result, folder, comparison=comparison)
+
+
+def _show(case: Case, figures: dict[str, Any], files: list[str], folder: Path) -> None:
+    console = stdout()
+    print_rows(console, case.title or folder.name, _rows(figures))
+    print_warnings(console, figures["warnings"])
+    console.print(Text(f"written to {folder}: {', '.join(files)}"))
+
+
+def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
+    bar = figures["max_tension_bar"]
+    where = "" if bar is None else f" in bar {bar}, from {figures['max_tension_bar_label']}"
+    methods = ", ".join(filter(None, (figures["solver"], figures["linear_solver"])))
+    rows = [
+        ("outcome", f"{figures['outcome']}: {figures['message']}"),
+        ("knots, bars", f"{figures['knots']}, {figures['bars']}"),
+        ("largest tension", quantity(figures["max_tension"], "N") + where),
+        ("slack bars", f"{figures['slack_bars']} of {figures['bars']}"),
+        ("drag, lift", f"{quantity(figures['drag'], 'N')}, {quantity(figures['lift'], 'N')}"),
+        ("weight in water", quantity(figures["weight_in_water"], "N")),
+        ("force on supports", vector(figures["support_reaction"], "N")),
+        ("largest displacement", quantity(figures["max_displacement"], "m")),
+        ("unbalanced force", quantity(figures["residual"], "N", 2)),
+        ("iterations", f"{figures['iterations']} ({methods})"),
+        ("time", quantity(figures["wall_time"], "s", 3)),
+    ]
+    if figures["time"] is not None:
+        rows.insert(-1, ("simulated time", quantity(figures["time"], "s")))
+    if "measured_rms" in figures:
+        apart = f"RMS {figures['measured_rms']:.3g} m over {figures['measured_knots']} knots"
+        worst = f"largest {figures['measured_largest']:.3g} m at {figures['measured_largest_knot']}"
+        rows.append(("against measured", f"{apart}, {worst}"))
+    return rows
