@@ -1,8 +1,6 @@
 """Derived figures of netting: hanging ratios, solidity, twine area, mass.
 
-The cell that repeats itself over a panel has one knot and two bars. With bar length a and hanging ratios E1,
-E2 its area is 2 a^2 E1 E2 for diamond netting (mesh diagonals 2 a E1 and 2 a E2) and a^2 E1 E2 for square
-netting.
+The cell that repeats itself over a panel has one knot and two bars, and the area of one mesh.
 """
 
 from __future__ import annotations
@@ -48,6 +46,14 @@ class NetMeasures:
     volume: float
 
 
+def mesh_area(mesh: MeshKind, bar_length: float, ratios: tuple[float, float]) -> float:
+    """Area (m2) within one mesh, of bar length a (m), hung at E1, E2.
+
+    2 a^2 E1 E2 for a diamond with the diagonals 2 a E1 and 2 a E2; a^2 E1 E2 for a square.
+    """
+    return {"diamond": 2.0, "square": 1.0}[mesh] * bar_length**2 * ratios[0] * ratios[1]
+
+
 def solidity(
     mesh: MeshKind,
     bar_length: float,
@@ -71,16 +77,14 @@ def solidity(
     a, d, dk = bar_length, diameter, knot_diameter
     e1, e2 = ratios
     if mesh == "square":
-        cell = a**2 * e1 * e2
         ends = dk if dk > d else d / 2.0
         sides = d * (a * e1 - ends) + d * (a * e2 - ends)
     else:
-        cell = 2.0 * a**2 * e1 * e2
         # Two knotless bars share a rhombus of area d^2 / (2 E1 E2) at every crossing.
         ends = dk if dk > d else d / (4.0 * e1 * e2)
         sides = 2.0 * d * (a - ends)
     disc = np.pi * dk**2 / 4.0 if dk > d else 0.0
-    return float(min(1.0, (sides + disc) / cell))
+    return float(min(1.0, (sides + disc) / mesh_area(mesh, a, ratios)))
 
 
 def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
@@ -88,17 +92,15 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     twine = next(t for t in net.twines if t.name == panel.twine)
     mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
     ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
-    cells = panel.meshes[0] * panel.meshes[1]
-    area = panel.size[0] * panel.size[1]
     density = float(np.mean(net.knot_density[slice(*panel.knots)]))
     cell_mass = 2.0 * panel.bar_length * twine.density * twine.area
     cell_mass += density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
-        outline_area=area,
+        outline_area=panel.size[0] * panel.size[1],
         solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
         twine_area=float(twine.diameter * np.sum(net.rest_length[slice(*panel.bars)])),
-        mass_per_area=float(cell_mass * cells / area),
+        mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),
         mesh_length=2.0 * panel.bar_length,
         rtex=twine.density * twine.area * KILOGRAM_PER_METRE_IN_TEX,
     )
