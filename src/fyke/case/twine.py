@@ -100,6 +100,11 @@ class TwineSpec(Table):
             modulus = MATERIALS[self.material].youngs_modulus
         return None if modulus is None else LinearLaw(modulus)
 
+    @property
+    def takes_from_material(self) -> bool:
+        """Whether density or modulus is the material's."""
+        return self.density is None or (self.youngs_modulus is None and self.law is None)
+
     def twine(self, name: str) -> Twine:
         """Return the twine of the netting under this name; only of a checked case."""
         density, law = self.resolved_density, self.resolved_law

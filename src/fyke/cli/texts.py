@@ -56,8 +56,8 @@ def print_sources(file: Path) -> int:
     except CaseError as error:
         print_problems(error.problems)
         return WRONG_INPUT
-    used = sorted({twine.material for twine in case.twine.values() if twine.material})
-    materials = [f"material {name}: {MATERIALS[name].source}" for name in used]
+    used = {twine.material for twine in case.twine.values() if twine.material and twine.takes_from_material}
+    materials = [f"material {name}: {MATERIALS[name].source}" for name in sorted(used)]
     method = case.solve.stepper if case.solve.kind == "dynamic" else "static"
     console = stdout()
     console.print(f"Computed with fyke {__version__}, built on:")
