@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+import re
 from pathlib import Path
 
 import pytest
@@ -185,10 +186,16 @@ def test_json_schema_lets_a_length_be_a_number_or_a_text_with_unit():
     assert schema["required"] == ["schema", "current", "twine", "netting", "gear"]
     number, text = schema["$defs"]["NettingSpec"]["properties"]["bar_length"]["anyOf"]
     assert number["type"] == "number" and number["exclusiveMinimum"] == 0.0
-    import re
-
     assert re.search(text["pattern"], "30 mm") and not re.search(text["pattern"], "30 kg")
     assert math.isclose(schema["$defs"]["Water"]["properties"]["density"]["default"], 1000.0)
+
+
+def test_json_schema_allows_what_the_reader_allows():
+    tables = json_schema()["$defs"]
+    assert "kind" not in tables["StaticSolve"].get("required", [])
+    assert tables["DynamicSolve"]["required"] == ["kind", "duration"]
+    pair = tables["PanelSpec"]["properties"]["hanging_ratio"]["anyOf"][2]
+    assert (pair["minItems"], pair["maxItems"]) == (2, 2)
 
 
 def test_json_schema_describes_every_key():

@@ -95,7 +95,14 @@ _RATIO_SCHEMA = {"anyOf": [{"type": "number"}, {"type": "string", "pattern": r"^
 HangingRatio = Annotated[
     float | tuple[float, float],
     PlainValidator(_read_hanging),
-    WithJsonSchema({"anyOf": [*_RATIO_SCHEMA["anyOf"], {"type": "array", "items": _RATIO_SCHEMA}]}),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                *_RATIO_SCHEMA["anyOf"],
+                {"type": "array", "items": _RATIO_SCHEMA, "minItems": 2, "maxItems": 2},
+            ]
+        }
+    ),
 ]
 
 

@@ -89,7 +89,7 @@ class AddedMass(Table):
 class StaticSolve(Table):
     """Find the equilibrium."""
 
-    kind: Literal["static"] = Field(description="static or dynamic", examples=["static"])
+    kind: Literal["static"] = Field(default="static", description="static or dynamic", examples=["static"])
     tolerance: Force = Field(default=1e-8, description="N, largest unbalanced force on a free knot")
 
 
@@ -158,7 +158,7 @@ class Case(Table):
     )
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
-    solve: SolveSpec = Field(default=StaticSolve(kind="static"), description="how to solve")
+    solve: SolveSpec = Field(default=StaticSolve(), description="how to solve")
     output: Output = Field(default=Output(), description="what to write")
     compare: Compare | None = Field(default=None, description="measurements")
     _text: str = PrivateAttr(default="")
