@@ -3,12 +3,14 @@
 import dataclasses
 import hashlib
 import json
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 import xarray as xr
 
+import fyke
 from fyke.forces.frame import Frame
 from fyke.netting.elastic import LinearLaw, PowerLaw, TableLaw
 from fyke.netting.line import line
@@ -36,6 +38,7 @@ OUTCOME = Outcome(
     force_evaluations=9876,
     warnings=("bar 12: strain 0.31 is above 0.3", "a second sentence\nover two lines"),
 )
+EXAMPLE = Path(__file__).parents[1] / "examples" / "panel.toml"
 CASE = 'schema = 1\ntitle = "Flume panel, 4 °C"\n'
 
 
@@ -229,3 +232,25 @@ def test_a_file_cut_off_anywhere_is_told(tmp_path):
         path.write_bytes(whole[:length])
         with pytest.raises(ResultError):
             load(path)
+
+
+def test_a_stranger_can_check_the_balance_of_a_solved_panel(tmp_path):
+    case = fyke.load_case(EXAMPLE)
+    result = fyke.solve_static(fyke.build_system(fyke.build_net(case), case), case_text=case.text)
+    fyke.save(result, tmp_path / "result.nc")
+    assert_same(fyke.load(tmp_path / "result.nc"), result)
+    with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:
+        last = data.isel(time=-1)
+        start, end = (last.position[last.bar_knots[:, side].values].values for side in (0, 1))
+        pull = (end - start) / np.linalg.norm(end - start, axis=1)[:, None] * last.tension.values[:, None]
+        held = np.zeros((data.sizes["knot"], 3))
+        np.add.at(held, last.bar_knots[:, 0].values, pull)
+        np.add.at(held, last.bar_knots[:, 1].values, -pull)
+        free = last.fixed.values == 0
+        # A free knot: tensions and water carry its weight, the same for every knot inside the panel.
+        left = (held + last.water_force.values)[free]
+        np.testing.assert_allclose(left[:, :2], 0.0, atol=1e-7)
+        assert left[:, 2].min() > 0.0
+        np.testing.assert_allclose(left[:, 2], left[:, 2].mean(), atol=1e-7)
+        total = last.hydrodynamic_force.values - [0.0, 0.0, float(last.weight_in_water)]
+        np.testing.assert_allclose(last.support_reaction, total, atol=1e-6)
