@@ -1,0 +1,158 @@
+"""Dynamics: the same rest as statics, energy, output times, failures as values."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import fyke
+from fyke.forces.evaluate import evaluate
+from fyke.solve.dynamic import output_times
+
+STEPPERS = [fyke.Verner(), fyke.Symplectic()]
+
+
+@pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
+def test_released_panel_comes_to_the_static_rest(framed, stepper):
+    """Released flat and at rest, 20 us of twine damping, until nothing is out of balance by more than 1e-6 N."""
+    system = framed(damping_time=2e-5)
+    static = fyke.solve_static(system)
+    result = fyke.simulate(system, duration=3.0, every=0.02, stepper=stepper, settle=fyke.Settle(force=1e-6))
+    assert result.outcome.name == "converged"
+    assert result.unbalanced_force[-1] < 1e-6
+    assert np.abs(result.position[-1] - static.position[-1]).max() < 1e-6
+    assert np.abs(result.tension[-1] - static.tension[-1]).max() < 1e-4 * static.tension.max()
+
+
+def total_energy(system, frame):
+    """Kinetic, elastic (linear law) and potential energy of weight less buoyancy, J."""
+    el = system.elements
+    ends = frame.position[system.net.bars]
+    stretch = np.maximum(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1) - el.rest_length, 0.0)
+    elastic = 0.5 * (el.stiffness * stretch**2).sum()
+    return frame.kinetic_energy + elastic - (el.weight * frame.position).sum()
+
+
+@pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
+def test_energy_never_grows_without_a_current(framed, stepper):
+    """A stretched and pushed panel in still water only loses energy.
+
+    The added mass is that of the knots alone: a mass that turns with its bar without the gyroscopic terms, as
+    M a = F has it, exchanges energy with the water.
+    """
+    system = framed(current=(0.0, 0.0, 0.0), coefficients=fyke.Coefficients(added_mass_bar=0.0))
+    rng = np.random.default_rng(5)
+    free = system.elements.free[:, None]
+    x = system.net.positions * 1.15 + free * rng.normal(scale=1e-3, size=(145, 3))
+    x = np.where(free > 0, x, system.net.positions)
+    start = fyke.State(0.0, x, free * rng.normal(scale=0.1, size=(145, 3)))
+    result = fyke.simulate(system, duration=0.05, every=1e-3, stepper=stepper, start=start)
+    energy = np.array([total_energy(system, result.frame(i)) for i in range(len(result.time))])
+    above_rest = energy - total_energy(system, fyke.solve_static(system).frame())
+    assert above_rest[-1] < 0.2 * above_rest[0]
+    assert np.diff(energy).max() < 1e-6 * above_rest[0]
+
+
+def test_momentum_of_a_free_net_without_water(framed):
+    """A floating panel in vacuum and without gravity keeps its momentum and its moment of momentum."""
+    system = framed(fixed="none", current=(0.0, 0.0, 0.0), water=fyke.Water(density=1e-9, gravity=0.0))
+    rng = np.random.default_rng(2)
+    x = system.net.positions * 1.15
+    start = fyke.State(0.0, x, rng.normal(scale=0.5, size=x.shape))
+    end = fyke.simulate(system, duration=0.02, stepper=fyke.Symplectic(), start=start).frame()
+    mass = system.elements.knot_mass[:, None]
+    assert np.abs((mass * (end.velocity - start.velocity)).sum(axis=0)).max() < 1e-10
+    spin = np.cross(end.position, mass * end.velocity).sum(axis=0) - np.cross(x, mass * start.velocity).sum(
+        axis=0
+    )
+    assert np.abs(spin).max() < 1e-10
+
+
+@pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
+def test_frames_come_at_the_asked_times(framed, stepper):
+    seen = []
+    result = fyke.simulate(framed(), duration=0.0105, every=0.002, stepper=stepper, on_frame=seen.append)
+    assert result.time == pytest.approx([0, 0.002, 0.004, 0.006, 0.008, 0.01, 0.0105], abs=1e-15)
+    assert [f.time for f in seen] == result.time.tolist()
+    assert result.outcome.name == "completed" and result.outcome.ok
+    assert result.frame(2).position is not result.frame(3).position
+
+
+def test_output_times():
+    assert output_times(1.0, 0.25).tolist() == [0, 0.25, 0.5, 0.75, 1.0]
+    assert output_times(1.0, 0.4).tolist() == [0, 0.4, 0.8, 1.0]
+    assert len(output_times(2.0, None)) == 101
+    assert output_times(0.5, 2.0).tolist() == [0, 0.5]
+
+
+def test_frames_at_the_asked_times_lie_on_the_same_motion(framed):
+    """What lies between the frames does not depend on how many are asked for."""
+    system = framed(damping_time=2e-5)
+    few = fyke.simulate(system, duration=0.02, every=0.02, stepper=fyke.Verner(rtol=1e-8, atol=1e-11))
+    many = fyke.simulate(system, duration=0.02, every=0.0007, stepper=fyke.Verner(rtol=1e-8, atol=1e-11))
+    assert np.abs(few.position[-1] - many.position[-1]).max() < 1e-9
+
+
+def test_not_settled_is_said(framed):
+    outcome = fyke.simulate(framed(), duration=0.01, settle=fyke.Settle(force=1e-9, energy=1e-12)).outcome
+    assert outcome.name == "not_settled" and not outcome.ok
+    assert "unbalanced force" in outcome.message and "damping_time" in outcome.advice
+
+
+def test_a_fault_names_time_and_knot_and_keeps_the_last_frames(framed):
+    system = framed()
+    broken = replace(system, elements=system.elements._replace(stiffness=system.elements.stiffness * np.nan))
+    start = fyke.State(0.0, system.net.positions * 1.2, np.zeros((145, 3)))
+    for stepper in STEPPERS:
+        result = fyke.simulate(broken, duration=0.01, stepper=stepper, start=start)
+        assert result.outcome.name == "not_finite"
+        assert "after t = 0 s" in result.outcome.message and "knot " in result.outcome.message
+        assert np.all(np.isfinite(result.position))
+
+
+@pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
+def test_ctrl_c_keeps_the_frames_so_far(framed, stepper):
+    calls = []
+
+    def progress(fraction, text):
+        calls.append((fraction, text))
+        if fraction > 0.3:
+            raise KeyboardInterrupt
+
+    result = fyke.simulate(framed(), duration=0.2, every=0.01, stepper=stepper, on_progress=progress)
+    assert result.outcome.name == "interrupted" and not result.outcome.ok
+    assert 0.3 < result.time[-1] / 0.2 < 0.6
+    assert result.time[-1] == result.outcome.time
+    assert "t = " in calls[0][1]
+
+
+@pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
+def test_same_input_same_bits(framed, stepper):
+    a, b = (fyke.simulate(framed(), duration=0.02, stepper=stepper) for _ in range(2))
+    assert a.position.tobytes() == b.position.tobytes()
+
+
+def test_held_knots_stay(framed):
+    system = framed()
+    result = fyke.simulate(system, duration=0.05, stepper=fyke.Symplectic())
+    held = system.net.fixed
+    assert np.array_equal(result.position[-1][held], system.net.positions[held])
+    assert np.all(result.velocity[:, held] == 0.0)
+
+
+def test_leapfrog_keeps_its_energy_at_the_stable_step(nylon):
+    """A taut square net without water, whose highest frequency is 2 sqrt(k/m)."""
+    net = fyke.panel(nylon, mesh="square", meshes=(6, 6), bar_length=0.03, size=(0.182, 0.182), fixed="edges")
+    system = fyke.make_system(net, water=fyke.Water(density=1e-9, gravity=0.0))
+    bound = fyke.Symplectic().stability_bound(system, system.at_rest())
+    mass = system.elements.knot_mass.max()
+    assert bound == pytest.approx(2.0 / (2.0 * np.sqrt(system.elements.stiffness[0] / mass)), rel=0.08)
+    rng = np.random.default_rng(0)
+    start = fyke.State(
+        0.0, net.positions, system.elements.free[:, None] * rng.normal(scale=1e-4, size=(49, 3))
+    )
+    energy = [total_energy(system, evaluate(system, start))]
+    end = fyke.simulate(system, duration=2000 * bound, stepper=fyke.Symplectic(), start=start).frame()
+    assert total_energy(system, end) == pytest.approx(energy[0], rel=1e-2)
