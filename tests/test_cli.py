@@ -11,6 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fyke.cli.app import app
+from fyke.cli.folder import PICTURES
 from fyke.version import __version__
 
 PANEL = Path(__file__).parents[1] / "examples" / "panel.toml"
@@ -81,7 +82,7 @@ def test_table_fits_80_columns_and_tells_the_result(case):
         f"{figures['max_tension']:.4g} N in bar {figures['max_tension_bar']}, from",
         f"{figures['slack_bars']} of 36",
         f"{figures['hydrodynamic_force'][0]:.4g} N",
-        "written to small: result.nc, summary.json, knots.csv, bars.csv",
+        "Written to small result result.nc, summary.json tables knots.csv, bars.csv",
     ):
         assert told in " ".join(done.stdout.split()), told
 
@@ -102,6 +103,27 @@ def test_earlier_result_is_kept_unless_it_may_be_overwritten(case):
     Path("small/summary.json").write_text("old")
     assert fyke("run", case, "--no-figures", "--overwrite").exit_code == 0
     assert json.loads(Path("small/summary.json").read_text())["outcome"] == "converged"
+
+
+def test_figures_of_an_earlier_kind_of_run_do_not_outlive_it(case):
+    static = case.read_text()
+    case.write_text(static.replace('"static"', '"dynamic"\nduration = 0.01\n[output]\nevery = 0.005'))
+    assert fyke("run", case, "--quiet").exit_code == 0
+    assert Path("small/histories.png").exists()
+    case.write_text(static)
+    told = " ".join(fyke("run", case, "--overwrite").stdout.split())
+    assert "figures initial_position, equilibrium_shape, tension_plan, tension_histogram (png, svg)" in told
+    left = {file.stem for file in Path("small").iterdir() if file.suffix in (".png", ".svg")}
+    assert left == {"initial_position", "equilibrium_shape", "tension_plan", "tension_histogram"}
+
+
+def test_every_figure_is_known_to_the_folder(case):
+    Path("measured.csv").write_text("knot,x,y,z\n1-1,0,0,-0.5\n")
+    text = case.read_text().replace('"static"', '"dynamic"\nduration = 0.01\n[output]\nevery = 0.005')
+    case.write_text(text + '\n[compare]\npositions = "measured.csv"\n')
+    fyke("run", case, "--quiet")
+    drawn = {file.stem for file in Path("small").iterdir() if file.suffix not in (".nc", ".json", ".csv")}
+    assert drawn == set(PICTURES)
 
 
 def test_folder_with_other_files_is_no_earlier_result(case):
@@ -170,12 +192,14 @@ def test_measurements_are_compared(case):
     assert "RMS 0.005 m over 5 knots" in fyke("run", case, "--no-figures", "--overwrite").stdout
 
 
-def test_faulty_measurements_are_told_before_the_solve(case):
+def test_faulty_measurements_are_told_before_anything_is_solved_or_replaced(case):
+    fyke("run", case, "--no-figures")
+    before = Path("small/result.nc").read_bytes()
     Path("measured.csv").write_text("knot,x,y,z\n1-1,0,zero,0\n99-99,0,0,0\n")
     case.write_text(case.read_text() + '[compare]\npositions = "measured.csv"\n')
-    done = fyke("run", case, "--no-figures")
+    done = fyke("run", case, "--no-figures", "--overwrite")
     assert done.exit_code == 2 and "'zero'" in done.stderr and "99-99" in done.stderr
-    assert not Path("small/result.nc").exists()
+    assert Path("small/result.nc").read_bytes() == before
 
 
 def test_check_tells_what_would_be_built():

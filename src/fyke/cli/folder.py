@@ -8,6 +8,15 @@ from pathlib import Path
 from ..case.errors import CaseError, Problem
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
+# Stems of the pictures: those of an earlier run of another kind must not outlive it.
+PICTURES = (
+    "initial_position",
+    "equilibrium_shape",
+    "tension_plan",
+    "tension_histogram",
+    "histories",
+    "comparison",
+)
 _ALLOWED = "a folder that can be written and holds no result"
 
 
@@ -26,11 +35,17 @@ def claim(folder: Path, *, overwrite: bool) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryFile(dir=folder):
             pass
-        for name in there:
-            (folder / name).unlink()
+        if there:
+            _clear(folder)
     except OSError as error:
         cure = "choose another folder with -o DIR, or give yourself the right to write there"
         raise _refusal(folder, error.strerror or str(error), cure) from None
+
+
+def _clear(folder: Path) -> None:
+    pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
+    for name in (RESULT, SUMMARY, KNOTS, BARS, *pictures):
+        (folder / name).unlink(missing_ok=True)
 
 
 def _refusal(folder: Path, found: str, cure: str) -> CaseError:

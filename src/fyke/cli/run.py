@@ -64,8 +64,12 @@ def run_case(file: Path, wishes: Wishes) -> int:
     folder = wishes.output or Path(file.stem)
     try:
         case = load_case(file)
+        system = build_system(build_net(case), case)
+        if case.positions_file:
+            # A fault of this file is told before the solve, and before an old result is taken away.
+            compare(_as_built(case, system), case.positions_file)
         claim(folder, overwrite=wishes.overwrite)
-        return _run(case, folder, wishes)
+        return _run(case, system, folder, wishes)
     except (CaseError, MeasurementError) as error:
         print_problems(error.problems)
     except OSError as error:
@@ -74,21 +78,17 @@ def run_case(file: Path, wishes: Wishes) -> int:
     return WRONG_INPUT
 
 
-def _run(case: Case, folder: Path, wishes: Wishes) -> int:
-    system = build_system(build_net(case), case)
-    measured = case.positions_file
-    if measured:
-        compare(_as_built(case, system), measured)  # a fault of the file is told before the solve, not after
+def _run(case: Case, system: System, folder: Path, wishes: Wishes) -> int:
     result = _solve(case, system, folder / RESULT, wishes)
-    comparison = compare(result, measured) if measured else None
+    comparison = compare(result, case.positions_file) if case.positions_file else None
     figures = _figures_of(case, result, comparison)
     write_tables(result, folder)
     write_summary(figures, folder)
-    pictures = _draw(result, folder, comparison) if wishes.figures else []
+    pictures = _draw(case, result, folder, comparison) if wishes.figures else []
     if wishes.json:
         print_json(figures)
     elif wishes.talk:
-        _show(case, figures, [RESULT, SUMMARY, KNOTS, BARS, *(one.name for one in pictures)], folder)
+        _show(case, figures, pictures, folder)
     if result.outcome.ok:
         return DONE
     stderr().print(Text(f"{result.outcome.name}: {result.outcome.message}\n{result.outcome.advice}".rstrip()))
@@ -142,17 +142,22 @@ def _figures_of(case: Case, result: Result, comparison: Comparison | None) -> di
     return figures
 
 
-def _draw(result: Result, folder: Path, comparison: Comparison | None) -> list[Path]:
+def _draw(case: Case, result: Result, folder: Path, comparison: Comparison | None) -> list[Path]:
     from ..report.figures import draw_all
 
-    return draw_all(result, folder, comparison=comparison)
+    return draw_all(result, folder, comparison=comparison, current=case.current.velocity)
 
 
-def _show(case: Case, figures: dict[str, Any], files: list[str], folder: Path) -> None:
+def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Path) -> None:
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    console.print(Text(f"written to {folder}: {', '.join(files)}"))
+    files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", f"{KNOTS}, {BARS}")]
+    if pictures:
+        names = dict.fromkeys(picture.stem for picture in pictures)
+        kinds = dict.fromkeys(picture.suffix[1:] for picture in pictures)
+        files.append(("figures", f"{', '.join(names)} ({', '.join(kinds)})"))
+    print_rows(console, f"Written to {folder}", files)
 
 
 def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
