@@ -72,6 +72,14 @@ def test_quiet_says_nothing_when_all_is_well(case):
     assert (done.exit_code, done.stdout, done.stderr) == (0, "", "")
 
 
+@pytest.mark.parametrize(("option", "told"), [("--no-figures", True), ("--quiet", False), ("--json", False)])
+def test_first_run_says_that_it_compiles(case, monkeypatch, option, told):
+    monkeypatch.setattr("fyke.cli.run.needs_compiling", lambda _: True)
+    assert ("compiling" in fyke("run", case, "--no-figures", option).stderr) is told
+    monkeypatch.setattr("fyke.cli.run.needs_compiling", lambda _: False)
+    assert "compiling" not in fyke("run", case, "--no-figures", option, "--overwrite").stderr
+
+
 def test_table_fits_80_columns_and_tells_the_result(case):
     done = fyke("run", case, "--no-figures")
     assert max(len(line) for line in done.stdout.splitlines()) <= 80

@@ -23,7 +23,7 @@ from ..results import (
 )
 from ..solve.outcome import Outcome
 from ..solve.result import Result
-from ..solve.run import planned_frames, solve_case
+from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.system import System
 from .folder import BARS, KNOTS, RESULT, SUMMARY, claim
@@ -64,6 +64,8 @@ def run_case(file: Path, wishes: Wishes) -> int:
     folder = wishes.output or Path(file.stem)
     try:
         case = load_case(file)
+        if wishes.talk and needs_compiling(case):
+            stderr().print("First run of this kind: compiling the kernels, some ten seconds, once.")
         system = build_system(build_net(case), case)
         if case.positions_file:
             # A fault of this file is told before the solve, and before an old result is taken away.
