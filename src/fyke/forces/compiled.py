@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 # NaN and infinity keep their meaning (no nnan, no ninf), so that a fault is seen where it happens; the other
@@ -11,3 +12,10 @@ OPTIONS: dict[str, Any] = {
     "fastmath": {"contract", "arcp", "nsz", "reassoc"},
     "error_model": "numpy",
 }
+
+
+def is_compiled(kernel: Any) -> bool:
+    """Whether the machine code of a kernel lies on disk, made after its source was last changed."""
+    source = Path(kernel.py_func.__code__.co_filename)
+    index = Path(kernel.stats.cache_path).glob(f"{source.stem}.{kernel.py_func.__name__}-*.nbi")
+    return any(file.stat().st_mtime >= source.stat().st_mtime for file in index)

@@ -72,7 +72,7 @@ def cone_stiffness(scaling, k, block, row):  # type: ignore[no-untyped-def]
 
 @njit(**OPTIONS)
 def cone_target(scaling, scaled, centre, cross, target):  # type: ignore[no-untyped-def]
-    """Dual change without motion, W^-1 u with l o u = centre e - l o l - cross, l the scaled point, into target (m, 4)."""
+    """Dual change without motion, W^-1 u, into target (m, 4); l o u = centre e - l o l - cross, l the scaled point."""
     d = np.zeros(4)
     for e in range(scaled.shape[0]):
         l0, l1, l2, l3 = scaled[e]

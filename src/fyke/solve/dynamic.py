@@ -14,6 +14,7 @@ from ..system.system import State, System
 from .outcome import Outcome, OutcomeName
 from .result import Result
 from .stepper import Run, Status, Stepper
+from .strain import strain_warnings
 from .verner import Verner
 
 Progress = Callable[[float, str], None]
@@ -99,7 +100,7 @@ def simulate(
         time=run.state.time,
         rejected=run.count.rejected,
         force_evaluations=run.count.evaluations,
-        warnings=warnings,
+        warnings=warnings + strain_warnings(system.net, frames),
     )
     return Result.from_frames(system.net, outcome, system.weight_in_water, frames, case_text)
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from ..case.schema import Case, DynamicSolve
+from ..forces.compiled import is_compiled
 from ..forces.frame import Frame
 from ..system.system import System
+from .cone import cone_changes
 from .dynamic import Settle, output_times, simulate
 from .result import Result
 from .static import solve_static
 from .stepper import Stepper
-from .symplectic import Symplectic
-from .verner import Verner
+from .symplectic import Symplectic, leap
+from .verner import Verner, advance
 
 Progress = Callable[[float, str], None]
 
@@ -22,6 +24,13 @@ def planned_frames(case: Case) -> int:
     if isinstance(case.solve, DynamicSolve):
         return len(output_times(case.solve.duration, case.output.every))
     return 1
+
+
+def needs_compiling(case: Case) -> bool:
+    """Whether a run of the case has to compile its kernels first, which takes some ten seconds, once."""
+    if not isinstance(case.solve, DynamicSolve):
+        return not is_compiled(cone_changes)
+    return not is_compiled(leap if case.solve.stepper == "symplectic" else advance)
 
 
 def stepper_of(chosen: DynamicSolve) -> Stepper:

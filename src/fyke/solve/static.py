@@ -26,6 +26,7 @@ from . import cone
 from .linear import Factorizer, Pattern, SingularMatrixError, factorizer
 from .outcome import Outcome, OutcomeName
 from .result import Result
+from .strain import strain_warnings
 
 Array = NDArray[np.float64]
 Solve = Callable[[Array], Array]
@@ -95,7 +96,6 @@ class _Statics:
         self.u = system.current.velocity(start.position, start.time)
         self.b = _Bars.of(len(self.x), len(self.el.knot_a), self.pattern)
         self.iterations = self.factorizations = 0
-        self.factor_seconds = 0.0
         self.residual, self.worst = self.true_residual()
         self.good = self.x.copy()
 
@@ -120,11 +120,8 @@ class _Statics:
         """Factorize the tangent for the present stiffness blocks."""
         b = self.b
         assemble(b.block, self.u, self.el, b.t, self.pattern.start, self.pattern.stride, b.data)
-        began = time.perf_counter()
-        solve = self.linear.factor(b.data)
-        self.factor_seconds += time.perf_counter() - began
         self.factorizations += 1
-        return solve
+        return self.linear.factor(b.data)
 
     def move(self, solve: Solve) -> None:
         """Motion of the free knots for the present right side."""
@@ -285,6 +282,7 @@ def solve_static(
         factorizations=s.factorizations,
         residual=frame.unbalanced_force,
         wall_time=time.perf_counter() - began,
+        warnings=strain_warnings(system.net, [frame]),
     )
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], case_text)
 

@@ -69,7 +69,7 @@ def _steps_until_turned(x, v, el, h):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _leap(x, v, h, steps, u, el, work, area):  # type: ignore[no-untyped-def]
+def leap(x, v, h, steps, u, el, work, area):  # type: ignore[no-untyped-def]
     """Take so many steps; x and v at the same time before and after. Returns force evaluations."""
     rel, g, force, inverse = work
     total_force(x, v, u, el, rel, g, force)
@@ -136,7 +136,7 @@ class SymplecticRun:
         steps = min(wanted, STEPS_PER_CALL)
         h = left / wanted
         x, v = old.position.copy(), old.velocity.copy()
-        self.count.evaluations += _leap(
+        self.count.evaluations += leap(
             x, v, h, steps, fluid_velocity(self.system, old), self.system.elements, self._work, self._area
         )
         if not (np.all(np.isfinite(x)) and np.all(np.isfinite(v))):

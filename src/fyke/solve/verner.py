@@ -111,10 +111,10 @@ def _largest(a):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tolerance):  # type: ignore[no-untyped-def]
+def advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tolerance):  # type: ignore[no-untyped-def]
     """Adaptive steps until clock[1] or for so many steps.
 
-    clock: time, end, step, largest step (s), written back; tolerance: rtol, atol, bar length (m), speed (m/s).
+    clock: time, end, step, largest step (s), written back; tolerance: rtol, atol, length (m), speed (m/s).
     Returns accepted steps, rejected steps, force evaluations and 0 when well, 1 for NaN, 2 for a step too small.
     """
     kx, kv = stages
@@ -157,7 +157,7 @@ def _advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tol
 
 @dataclass(frozen=True)
 class Verner:
-    """Options: rtol relative to the shortest bar and the speeds, atol in m and m/s, max_step in s."""
+    """Options: rtol relative to the smallest bar or knot and to the speeds, atol in m and m/s, max_step in s."""
 
     rtol: float = 1e-4
     atol: float = 1e-7
@@ -215,7 +215,8 @@ class VernerRun:
         self._work = (rel, g, *(np.zeros(s) for s in ((n, 3), (n, 6), (n, 3), (n, 3), (n, 3), (n, 3))))
         self._stages = (np.zeros((STAGES, 3 * n)), np.zeros((STAGES, 3 * n)))
         speed = float(np.linalg.norm(fluid_velocity(system, state), axis=1).max(initial=0.0))
-        self._tolerance = np.array([method.rtol, method.atol, float(el.rest_length.min()), speed])
+        size = np.concatenate([el.rest_length, system.net.knot_diameter[system.net.knot_diameter > 0.0]])
+        self._tolerance = np.array([method.rtol, method.atol, float(size.min(initial=1.0)), speed])
         self.step = 0.1 * self._bound(state)
 
     def _bound(self, state: State) -> float:
@@ -228,7 +229,7 @@ class VernerRun:
         old = self.state
         x, v = old.position.copy(), old.velocity.copy()
         clock = np.array([old.time, end, self.step, self._bound(old)])
-        accepted, rejected, evaluations, fault = _advance(
+        accepted, rejected, evaluations, fault = advance(
             x,
             v,
             clock,

@@ -1,0 +1,237 @@
+"""Speed and memory of the framed panel, as ratios within one run: prints a table and writes RESULTS.md.
+
+Run with `make bench`. Times are the best of several repeats on a machine that may be doing other things: read the
+ratios, not the seconds.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import platform
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numba import njit
+
+import fyke
+from fyke.forces.total import total_force, work_arrays
+from fyke.solve.linear import Pattern, Rslab
+from fyke.solve.symplectic import leap
+
+HERE = Path(__file__).parent
+EXAMPLE = HERE.parent / "examples" / "panel.toml"
+Row = tuple[str, str, str]
+
+
+def panel_system(meshes: int, speed: float = 0.5) -> fyke.System:
+    """Diamond panel of the example with so many meshes each way, on a frame 10 % short."""
+    twine = fyke.Twine("main", 1140.0, 1.5e-3, fyke.LinearLaw(1e9))
+    side = 0.9 * meshes * 0.03 * np.sqrt(2.0)
+    net = fyke.panel(
+        twine,
+        mesh="diamond",
+        meshes=(meshes, meshes),
+        bar_length=0.03,
+        size=(side, side),
+        knot_diameter=3.5e-3,
+    )
+    return fyke.make_system(net, current=(speed, 0.0, 0.0))
+
+
+def best(work: Callable[[], object], repeats: int = 7) -> float:
+    """Shortest wall time (s) of several calls, after one to warm up."""
+    work()
+    times = []
+    for _ in range(repeats):
+        began = time.perf_counter()
+        work()
+        times.append(time.perf_counter() - began)
+    return min(times)
+
+
+class TimedFactorizer:
+    """The linear solver of the package, with the bare time of its factorizations added up."""
+
+    name = Rslab.name
+
+    def __init__(self, pattern: Pattern) -> None:
+        self._solver, self.seconds = Rslab(pattern), 0.0
+
+    def factor(self, data):  # type: ignore[no-untyped-def]
+        """Factorize and keep the time."""
+        began = time.perf_counter()
+        solve = self._solver.factor(data)
+        self.seconds += time.perf_counter() - began
+        return solve
+
+
+def statics() -> list[Row]:
+    """Factorizations, and the whole solve over its factorizations."""
+    rows = []
+    counts = [fyke.solve_static(panel_system(8, speed)).outcome for speed in (0.1, 0.5, 1.0, 2.0, 4.0)]
+    assert all(o.ok and o.residual <= 1e-8 for o in counts)
+    found = ", ".join(str(o.factorizations) for o in counts)
+    rows.append(("static 8x8 at 0.1, 0.5, 1, 2, 4 m/s: factorizations", found, "<= 15"))
+    system = panel_system(8)
+    ratios, walls = [], []
+    for _ in range(15):
+        timed = TimedFactorizer(Pattern.of(system.elements))
+        outcome = fyke.solve_static(system, linear=timed).outcome
+        ratios.append(outcome.wall_time / timed.seconds)
+        walls.append(outcome.wall_time)
+    rows.append(("static 8x8: whole solve / its factorizations", f"{min(ratios):.2f}", "<= 4"))
+    rows.append(("static 8x8: whole solve", f"{1e3 * min(walls):.1f} ms", "a few ms"))
+    return rows
+
+
+LARGE = """
+import resource, sys
+sys.path.insert(0, {here!r})
+from run import panel_system
+import fyke
+system = panel_system(100)
+outcome = fyke.solve_static(system).outcome
+assert outcome.ok
+peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+print(outcome.factorizations, outcome.wall_time, peak, 3 * int(system.elements.free.sum()))
+"""
+
+
+def large_static() -> list[Row]:
+    """100 x 100 in a process of its own, for its peak memory."""
+    out = subprocess.run(
+        [sys.executable, "-c", LARGE.format(here=str(HERE))], check=True, capture_output=True, text=True
+    ).stdout.split()
+    return [
+        (f"static 100x100, {out[3]} unknowns: factorizations", out[0], "<= 30"),
+        ("static 100x100: whole solve", f"{float(out[1]):.2f} s", ""),
+        ("static 100x100: peak memory of the process", f"{float(out[2]):.0f} MB", "< 1000 MB"),
+    ]
+
+
+@njit
+def many_forces(count, x, v, u, el, rel, g, out):  # type: ignore[no-untyped-def]
+    """Call the force evaluation so many times without going back to Python."""
+    for _ in range(count):
+        total_force(x, v, u, el, rel, g, out)
+
+
+def force_per_bar(system: fyke.System) -> float:
+    """Seconds of one force evaluation over the number of bars."""
+    x = system.net.positions + np.random.default_rng(0).normal(scale=1e-3, size=system.net.positions.shape)
+    v = np.zeros_like(x)
+    u = system.current.velocity(x, 0.0)
+    rel, g = work_arrays(len(x))
+    out = np.empty_like(x)
+    count = max(1, 500_000 // system.net.bar_count)
+    args = (count, x, v, u, system.elements, rel, g, out)
+    return best(lambda: many_forces(*args), 15) / count / system.net.bar_count
+
+
+def explicit() -> list[Row]:
+    """Force evaluation and the leapfrog step over it."""
+    rows = []
+    for meshes, goal in ((8, "<= 15 ns"), (100, "<= 15 ns"), (400, "<= 20 ns")):
+        seconds = force_per_bar(panel_system(meshes))
+        rows.append(
+            (f"force evaluation {meshes}x{meshes}, one core, per bar", f"{1e9 * seconds:.1f} ns", goal)
+        )
+        if meshes == 8:
+            bare = seconds * panel_system(8).net.bar_count
+    system = panel_system(8)
+    el = system.elements
+    moved = fyke.simulate(system, duration=0.3, stepper=fyke.Symplectic(), every=0.3).frame()
+    x, v = moved.position.copy(), moved.velocity.copy()
+    u = system.current.velocity(x, 0.0)
+    rel, g = work_arrays(len(x))
+    work = (rel, g, np.zeros_like(x), np.zeros((len(x), 6)))
+    area = el.knot_drag + 1e-6
+    step = 0.5 * fyke.Symplectic().stability_bound(system, system.at_rest())
+    seconds = best(lambda: leap(x, v, step, 2000, u, el, work, area), 9) / 2000
+    rows.append(("leapfrog step 8x8 / bare force evaluation", f"{seconds / bare:.2f}", "<= 1.5"))
+    rows.append(("leapfrog 8x8: steps per second", f"{1 / seconds:,.0f}", ""))
+    duration = 0.2
+    runs = {}
+    for stepper in (fyke.Symplectic(), fyke.Verner()):
+        outcome = fyke.simulate(system, duration=duration, stepper=stepper, every=duration).outcome
+        runs[stepper.name] = outcome
+    ratio = runs["verner"].wall_time / runs["symplectic"].wall_time
+    rows.append((f"Verner / leapfrog, 8x8, {duration} s from release: wall time", f"{ratio:.1f}", ""))
+    return rows
+
+
+def command_line() -> list[Row]:
+    """Whole commands: warm, importing, and the first run ever with an empty cache of compiled code."""
+    with tempfile.TemporaryDirectory() as folder:
+
+        def run(name: str, **environment: str) -> float:
+            began = time.perf_counter()
+            command = [
+                sys.executable,
+                "-m",
+                "fyke",
+                "run",
+                str(EXAMPLE),
+                "-o",
+                f"{folder}/{name}",
+                "--quiet",
+                "--overwrite",
+            ]
+            subprocess.run(command, check=True, env=os.environ | environment, capture_output=True)
+            return time.perf_counter() - began
+
+        warm = best(lambda: run("warm"), 3)
+        first = run("first", NUMBA_CACHE_DIR=f"{folder}/cache")
+        began = time.perf_counter()
+        code = "import fyke; fyke.load_case, fyke.solve_static, fyke.save; import matplotlib.figure"
+        subprocess.run([sys.executable, "-c", code], check=True)
+        importing = time.perf_counter() - began
+    return [
+        ("fyke run examples/panel.toml, warm cache", f"{warm:.2f} s", "< 3 s"),
+        ("of which importing everything", f"{importing:.2f} s", "< 1 s"),
+        ("the first run ever, compilation included", f"{first:.1f} s", "< 20 s"),
+    ]
+
+
+def machine() -> str:
+    """What this ran on."""
+    model = platform.processor() or platform.machine()
+    info = Path("/proc/cpuinfo")
+    if info.exists():
+        names = [
+            line.split(":", 1)[1].strip() for line in info.read_text().splitlines() if "model name" in line
+        ]
+        model = names[0] if names else model
+    versions = json.loads(subprocess.run(
+        [sys.executable, "-c", "import numpy, scipy, numba, json; print(json.dumps([numpy.__version__, "
+         "scipy.__version__, numba.__version__]))"], check=True, capture_output=True, text=True).stdout)  # fmt: skip
+    return (
+        f"{model}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}, "
+        f"numpy {versions[0]}, scipy {versions[1]}, numba {versions[2]}, fyke {fyke.__version__}"
+    )
+
+
+def main() -> None:
+    """Measure, print and write."""
+    rows: list[Row] = []
+    for part in (statics, large_static, explicit, command_line):
+        rows += part()
+        for row in rows[-1:]:
+            print(f".. {part.__name__} done: {row[0]} = {row[1]}", flush=True)
+    width = max(len(row[0]) for row in rows)
+    lines = [f"| {'what'.ljust(width)} | measured | goal |", f"|{'-' * (width + 2)}|---|---|"]
+    lines += [f"| {what.ljust(width)} | {value} | {goal} |" for what, value, goal in rows]
+    table = "\n".join(lines)
+    print(table)
+    text = f"# Benchmarks\n\nMade by `make bench` on {time.strftime('%Y-%m-%d')}: {machine()}.\n\n{table}\n"
+    (HERE / "RESULTS.md").write_text(text)
+
+
+if __name__ == "__main__":
+    main()
