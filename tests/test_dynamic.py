@@ -134,6 +134,31 @@ def test_same_input_same_bits(framed, stepper):
     assert a.position.tobytes() == b.position.tobytes()
 
 
+def test_ctrl_c_before_the_first_frame(framed):
+    def stop(frame):
+        if not seen:
+            seen.append(frame)
+            raise KeyboardInterrupt
+
+    seen = []
+    result = fyke.simulate(framed(), duration=0.2, on_frame=stop)
+    assert result.outcome.name == "interrupted"
+    assert result.time.tolist() == [0.0]
+
+
+def test_strain_beyond_thirty_percent_is_told(framed):
+    """A modulus of 1 MPa lets the bars stretch far beyond any measured law."""
+    system = framed(size=(0.34, 0.34), current=(3.0, 0.0, 0.0))
+    soft = fyke.Twine("rubber", 1140.0, 1.5e-3, fyke.LinearLaw(1e6))
+    system = fyke.make_system(replace(system.net, twines=(soft,)), current=(3.0, 0.0, 0.0))
+    result = fyke.solve_static(system)
+    (warning,) = result.outcome.warnings
+    ends = result.position[-1][system.net.bars]
+    strain = np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).max() / 0.03 - 1.0
+    assert f"reaches {100 * strain:.0f} %" in warning and "above 30 %" in warning
+    assert fyke.solve_static(framed()).outcome.warnings == ()
+
+
 def test_held_knots_stay(framed):
     system = framed()
     result = fyke.simulate(system, duration=0.05, stepper=fyke.Symplectic())

@@ -173,6 +173,16 @@ def test_iteration_limit_keeps_the_last_state(framed):
     assert result.outcome.residual == result.unbalanced_force[-1] > 1e-8
 
 
+def test_ctrl_c_keeps_the_last_state(framed):
+    def progress(fraction, text):
+        if "iteration 4" in text:
+            raise KeyboardInterrupt
+
+    result = fyke.solve_static(framed(), on_progress=progress)
+    assert (result.outcome.name, result.outcome.iterations) == ("interrupted", 4)
+    assert result.outcome.residual == result.unbalanced_force[-1] > 1e-8
+
+
 def test_a_law_without_value_is_named(framed, nylon):
     system = framed()
     rows = system.elements.law_rows.copy()

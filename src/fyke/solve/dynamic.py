@@ -83,7 +83,7 @@ def simulate(
     try:
         verdict = _loop(system, run, duration, every, settle, frames, on_frame, on_progress)
     except KeyboardInterrupt:
-        if run.state.time > frames[-1].time:
+        if not frames or run.state.time > frames[-1].time:
             _keep(frames, evaluate(system, run.state), on_frame)
         verdict = "interrupted", f"stopped by hand at {run.state.time:.4g} s", "the frames so far are saved"
     name, message, advice = verdict

@@ -259,7 +259,7 @@ def solve_static(
 
     tolerance: N, largest unbalanced force on a free knot; where the rounding of the coordinates alone makes more than
     that, its size is the tolerance and the outcome says so. start: where to begin, the net as built by default.
-    How it ended is the result's outcome; a solve that fails returns the last good state.
+    How it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state.
     """
     began = time.perf_counter()
     s = _Statics(system, start or system.at_rest(), linear)
@@ -267,7 +267,11 @@ def solve_static(
     if loose.size:
         name, message, advice = _floating(system, loose)
     else:
-        name, message, advice = _iterate(s, max(tolerance, s.floor), max_iterations, on_progress)
+        try:
+            name, message, advice = _iterate(s, max(tolerance, s.floor), max_iterations, on_progress)
+        except KeyboardInterrupt:
+            name, message = "interrupted", f"stopped by hand after {s.iterations} iterations"
+            advice = "the last shape is saved; run it again"
     if name == "converged" and s.residual > tolerance:
         message += f"; the asked {tolerance:g} N is below the rounding of the coordinates, {s.floor:.1e} N"
     state = State(0.0, s.good + s.origin, np.zeros_like(s.good))
