@@ -15,6 +15,10 @@ from ..system.elements import Elements
 Array = NDArray[np.float64]
 
 
+# Below so many unknowns a second thread costs more than it brings.
+SERIAL_BELOW = 5_000
+
+
 class SingularMatrixError(Exception):
     """The matrix has no inverse to working precision."""
 
@@ -99,7 +103,8 @@ class Rslab:
         import rslab
 
         self._errors = (RuntimeError, ValueError, ArithmeticError)
-        self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="lu")
+        threads = 1 if len(pattern.indptr) <= SERIAL_BELOW else None
+        self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="lu", threads=threads)
 
     def factor(self, data: Array) -> Callable[[Array], Array]:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""

@@ -110,8 +110,8 @@ def make_system(
     linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
     damping = np.array([t.damping_time for t in net.twines])[net.twine_of_bar]
     elements = Elements(
-        knot_a=np.ascontiguousarray(net.bars[:, 0], dtype=np.int32),
-        knot_b=np.ascontiguousarray(net.bars[:, 1], dtype=np.int32),
+        knot_a=np.ascontiguousarray(net.bars[:, 0], dtype=np.uint32),
+        knot_b=np.ascontiguousarray(net.bars[:, 1], dtype=np.uint32),
         rest_length=net.rest_length.copy(),
         stiffness=stiffness,
         damping_time=damping,

@@ -13,17 +13,18 @@ Array = NDArray[np.float64]
 class Elements(NamedTuple):
     """n knots and m bars as the kernels see them; every array is contiguous.
 
-    knot_a, knot_b: (m,) ends of a bar; rest_length: (m,) m; stiffness: (m,) N/m, dT/dl of a linear law, and of
-    any other law the secant at REFERENCE_STRAIN; damping_time: (m,) s; normal_drag, tangential_drag: (m,) kg/m2,
-    half of 1/2 rho C d, so that each end gets coefficient x length x |w| w; bar_added_mass: (m,) kg, half of
-    C_a rho pi/4 d^2 l0, normal to the bar, for each end; law_rows: (r, 5), see netting.elastic; law_first,
-    law_end: (m,) rows of a bar; linear: every law is linear; damped: some damping time is not zero; knot_drag:
-    (n,) kg/m, 1/2 rho C_D pi/4 d_k^2; knot_mass: (n,) kg, isotropic: half of each bar, the knot and its added
-    mass; weight: (n, 3) N, weight less buoyancy and dead load; free: (n,) 1 where free, 0 where held.
+    knot_a, knot_b: (m,) ends of a bar, unsigned so that no kernel looks for negative indices; rest_length: (m,) m;
+    stiffness: (m,) N/m, dT/dl of a linear law, and of any other law the secant at REFERENCE_STRAIN;
+    damping_time: (m,) s; normal_drag, tangential_drag: (m,) kg/m2, half of 1/2 rho C d, so that each end gets
+    coefficient x length x |w| w; bar_added_mass: (m,) kg, half of C_a rho pi/4 d^2 l0, normal to the bar, for each
+    end; law_rows: (r, 5), see netting.elastic; law_first, law_end: (m,) rows of a bar; linear: every law is linear;
+    damped: some damping time is not zero; knot_drag: (n,) kg/m, 1/2 rho C_D pi/4 d_k^2; knot_mass: (n,) kg,
+    isotropic: half of each bar, the knot and its added mass; weight: (n, 3) N, weight less buoyancy and dead load;
+    free: (n,) 1 where free, 0 where held.
     """
 
-    knot_a: NDArray[np.int32]
-    knot_b: NDArray[np.int32]
+    knot_a: NDArray[np.uint32]
+    knot_b: NDArray[np.uint32]
     rest_length: Array
     stiffness: Array
     damping_time: Array
