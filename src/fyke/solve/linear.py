@@ -104,7 +104,9 @@ class Rslab:
 
         self._errors = (RuntimeError, ValueError, ArithmeticError)
         threads = 1 if len(pattern.indptr) <= SERIAL_BELOW else None
-        self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="lu", threads=threads)
+        self._symbolic = rslab.analyze(
+            pattern.matrix(np.ones(len(pattern.indices))), path="lu", threads=threads
+        )
 
     def factor(self, data: Array) -> Callable[[Array], Array]:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""

@@ -39,13 +39,15 @@ TO_EDGE_NEAR = 0.95
 START_STRAIN = 0.05
 # Gap of a bar to its cone's edge, over the bar's length, at which the near field takes over.
 NEAR = 1e-3
+# When that was too early the far field goes on to a gap NEARER times as large, down to LEAST_NEAR.
+NEARER, LEAST_NEAR = 1e-3, 1e-8
 # Largest rotation of a bar in one step of the near field (rad).
 LARGEST_ROTATION = 0.5
 # Bounds of Mehrotra's centring, (mu_affine / mu)^3; the second one holds where rotations cut the step short.
 LEAST_CENTRING, LEAST_CENTRING_CUT = 1e-6, 0.1
 CUT = 0.3
 # Steps shorter than SHORT, so many in a row, are a stall.
-SHORT, SHORT_STEPS = 1e-3, 8
+SHORT, SHORT_STEPS = 1e-2, 5
 # Rounding of a residual: so many units in the last place of stiffness times coordinate.
 ROUNDING = 8.0
 
@@ -127,6 +129,11 @@ class _Statics:
         """Motion of the free knots for the present right side."""
         self.b.dx[self.pattern.free] = solve(self.b.right).reshape(-1, 3)
 
+    def begin_at(self, x: Array) -> None:
+        """Go to positions x (n, 3) m about the origin."""
+        self.x[:] = x
+        self.residual, self.worst = self.true_residual()
+
     def accept(self, step: float) -> None:
         """Take a step and judge it."""
         self.x += step * self.b.dx
@@ -157,9 +164,9 @@ class _Far:
         # Halfway between no dual force and the one of the central path.
         self.Z[:, 1:] = -0.5 * tension * self.Y[:, 1:] / self.Y[:, :1]
 
-    def near(self) -> bool:
-        """Whether the near field may take over."""
-        return bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < NEAR)
+    def near(self, gap: float) -> bool:
+        """Whether a bar is so near to its cone's edge, over its length, that the near field may take over."""
+        return bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < gap)
 
     def step(self) -> float:
         """Predictor and corrector; return the length of the step taken."""
@@ -228,7 +235,8 @@ class _Near:
         self.cross *= affine * turning
         turn = self._direction(solve, min(1.0, max(ratio**3, least)) * mu, self.bent)
         turning = LARGEST_ROTATION / max(turn, LARGEST_ROTATION)
-        step: float = min(turning, TO_EDGE_NEAR * path.path_step(self.T, self.w, self.dT, self.dw))
+        edge = max(TO_EDGE_NEAR, 1.0 - ratio)
+        step: float = min(turning, edge * path.path_step(self.T, self.w, self.dT, self.dw))
         self.T += step * self.dT
         self.w += step * self.dw
         s.accept(step)
@@ -313,43 +321,67 @@ def _floating(system: System, loose: NDArray[np.int64]) -> Verdict:
 
 def _iterate(s: _Statics, tolerance: float, limit: int, on_progress: Progress | None) -> Verdict:
     """Far field, then near field, until the true residual is below tolerance."""
-    far, near = _Far(s), None
+    far, near, gap = _Far(s), None, NEAR
+    begin = s.x.copy()
     first, short = max(s.residual, tolerance), 0
-    labels = s.system.net.labels
     while not s.residual <= tolerance:
         if s.iterations >= limit:
-            return (
-                "iteration_limit",
-                f"{s.iterations} iterations were not enough: {s.residual:.3g} N are left at knot {labels[s.worst]}",
-                "raise max_iterations, or let a dynamic case with twine damping find the shape",
-            )
-        if near is None and far.near():
+            return _out_of_iterations(s)
+        if near is None and far.near(gap):
             near = _Near(s, far)
         try:
             step = (near or far).step()
         except SingularMatrixError as error:
-            return (
-                "singular",
-                f"the tangent has no inverse in iteration {s.iterations + 1} ({error}); worst knot {labels[s.worst]}",
-                "look for knots that nothing holds in some direction, or begin from another shape",
-            )
+            return _no_inverse(s, error)
         if not np.isfinite(s.residual):
-            return (
-                "not_finite",
-                f"iteration {s.iterations}: the force on knot {labels[s.worst]} is not a number",
-                "look for bars of zero length or an elastic law that has no value there",
-            )
+            return _not_finite(s)
         short = short + 1 if step < SHORT else 0
+        if short >= SHORT_STEPS and (near is None or gap <= LEAST_NEAR):
+            return _stalled(s)
         if short >= SHORT_STEPS:
-            return (
-                "stalled",
-                f"steps became too short after {s.iterations} iterations, {s.residual:.3g} N are left at knot "
-                f"{labels[s.worst]}",
-                "the net may have no stable shape near this start: begin from another one, or run a dynamic case",
-            )
+            # The near field jams when it begins too far off: once more from the start, with a longer far field.
+            gap, short = gap * NEARER, 0
+            s.begin_at(begin)
+            far, near = _Far(s), None
         if on_progress is not None:
             done = np.log(first / max(s.residual, tolerance)) / max(np.log(first / tolerance), 1.0)
             on_progress(
                 float(np.clip(done, 0.0, 1.0)), f"iteration {s.iterations}, residual {s.residual:.1e} N"
             )
     return "converged", f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations", ""
+
+
+def _left(s: _Statics) -> str:
+    return f"{s.residual:.3g} N are left at knot {s.system.net.labels[s.worst]}"
+
+
+def _out_of_iterations(s: _Statics) -> Verdict:
+    return (
+        "iteration_limit",
+        f"{s.iterations} iterations were not enough: {_left(s)}",
+        "raise max_iterations, or let a dynamic case with twine damping find the shape",
+    )
+
+
+def _no_inverse(s: _Statics, error: SingularMatrixError) -> Verdict:
+    return (
+        "singular",
+        f"the tangent has no inverse in iteration {s.iterations + 1} ({error}): {_left(s)}",
+        "look for knots that nothing holds in some direction, or begin from another shape",
+    )
+
+
+def _not_finite(s: _Statics) -> Verdict:
+    return (
+        "not_finite",
+        f"the force on knot {s.system.net.labels[s.worst]} is not a number in iteration {s.iterations}",
+        "look for bars of zero length or an elastic law that has no value there",
+    )
+
+
+def _stalled(s: _Statics) -> Verdict:
+    return (
+        "stalled",
+        f"steps became too short after {s.iterations} iterations: {_left(s)}",
+        "the net may have no stable shape near this start: begin from another one, or run a dynamic case",
+    )
