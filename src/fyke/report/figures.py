@@ -1,0 +1,74 @@
+"""All figures of a result, drawn and written in one go."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+from numpy.typing import ArrayLike
+
+from ..results.compare import Comparison
+from ..results.whole import replacing
+from ..solve.result import Result
+from . import style
+from .histogram import tension_histogram
+from .histories import histories
+from .overlay import shape_comparison
+from .plan import tension_plan
+from .shapes import equilibrium_shape, initial_position
+
+__all__ = [
+    "draw_all",
+    "equilibrium_shape",
+    "histories",
+    "initial_position",
+    "shape_comparison",
+    "tension_histogram",
+    "tension_plan",
+    "write_figure",
+]
+
+# No date and no version, so that the same result gives the same bytes. A PNG packed harder takes twice the time to
+# write and is a tenth smaller.
+OPTIONS: dict[str, dict[str, Any]] = {
+    "png": {"metadata": {"Software": "fyke"}, "pil_kwargs": {"compress_level": 3}},
+    "svg": {"metadata": {"Date": None, "Creator": "fyke"}},
+}
+
+
+def draw_all(
+    result: Result,
+    folder: str | Path,
+    *,
+    comparison: Comparison | None = None,
+    current: ArrayLike | None = None,
+) -> list[Path]:
+    """Draw every figure that applies to a result; write each as PNG and SVG into an existing folder.
+
+    comparison: adds the overlay of measured positions; current: (3,) m/s, undisturbed, for the arrow of the initial
+    position and the direction of drag. A result of more than one frame has histories. Return the files written.
+    """
+    figures = {
+        "initial_position": initial_position(result, current=current),
+        "equilibrium_shape": equilibrium_shape(result),
+        "tension_plan": tension_plan(result),
+        "tension_histogram": tension_histogram(result),
+    }
+    if len(result.time) > 1:
+        figures["histories"] = histories(result, current=current)
+    if comparison is not None:
+        figures["comparison"] = shape_comparison(result, comparison)
+    return [file for name, figure in figures.items() for file in write_figure(figure, Path(folder) / name)]
+
+
+@style.styled
+def write_figure(figure: Figure, stem: Path) -> list[Path]:
+    """Write a figure as PNG and SVG under a name without ending; return both files, each there whole or not at all."""
+    files = []
+    for kind, options in OPTIONS.items():
+        file = stem.with_name(f"{stem.name}.{kind}")
+        with replacing(file) as part:
+            figure.savefig(part, format=kind, **options)
+        files.append(file)
+    return files

@@ -1,0 +1,137 @@
+"""Figure of the tension of every bar on the netting laid flat."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from ..netting.net import Net, Panel
+from ..solve.result import Result
+from . import style
+from .bars import draw_knots, draw_tension, name_marks, slack_name, tension_bar, tension_scale
+from .plane import frame, plane_axes
+
+Array = NDArray[np.float64]
+
+LEFT, RIGHT, BELOW, LEGEND, TITLE, COLOUR_BAR, COLOUR_BAR_UNDER = 0.6, 0.1, 0.38, 0.26, 0.18, 0.62, 0.46  # in
+TALLEST = 1.3  # height over width of a plan
+LEAST_HEIGHT, COLOUR_BAR_LENGTH = 0.65, 1.15  # in, for the labels beside them
+COLUMNS = 3  # panels side by side
+
+
+@dataclass(frozen=True)
+class _Plan:
+    """The net's knots (n, 2) m along the axes of one panel, and which knots and bars are the panel's."""
+
+    title: str
+    names: tuple[str, str]
+    points: Array
+    knots: slice
+    bars: slice
+
+
+@style.styled
+def tension_plan(result: Result) -> Figure:
+    """Show the tension of every bar on the netting laid flat, as it was before anything acted.
+
+    One plan per panel, in the panel's own width and height; bars of no panel are left out. A net without panels is
+    seen square to the plane that fits its knots best.
+    """
+    plans = _plans(result.net)
+    shown = np.concatenate([result.tension[-1][plan.bars] for plan in plans])
+    scale, taut = tension_scale(shown), bool(np.any(shown > 0.0))
+    sheet = _Sheet.holding([frame(plan.points[plan.knots]) for plan in plans], colour_bar=taut)
+    figure = Figure(figsize=(sheet.width, sheet.height))
+    for index, plan in enumerate(plans):
+        limits, left, bottom = sheet.place(index)
+        ax = plane_axes(figure, limits, (left, bottom), metres=sheet.metres, names=plan.names)
+        ax.set_title(plan.title)
+        bars, tension = result.net.bars[plan.bars], result.tension[-1][plan.bars]
+        draw_tension(ax, plan.points, bars, tension, scale, named=slack_name(shown))
+        draw_knots(ax, plan.points[plan.knots], result.net.fixed[plan.knots])
+    if taut:
+        tension_bar(figure, sheet.colour_bar, scale)
+    name_marks(figure)
+    return figure
+
+
+@dataclass(frozen=True)
+class _Sheet:
+    """Plans in rows and columns, all on one scale; lengths in inches, metres: to an inch.
+
+    limits: (2, 2) m of each plan; cell: width and height of the room that each has for its axes; low, end: room under
+    the last row and at the right, with the colour bar if there is one.
+    """
+
+    limits: list[Array]
+    columns: int
+    rows: int
+    metres: float
+    cell: tuple[float, float]
+    low: float
+    end: float
+    width: float
+
+    @classmethod
+    def holding(cls, limits: list[Array], *, colour_bar: bool) -> _Sheet:
+        columns = min(len(limits), COLUMNS)
+        rows = -(-len(limits) // columns)
+        page = style.SINGLE_COLUMN if columns == 1 else style.DOUBLE_COLUMN
+        sides = np.max([np.ptp(one, axis=0) for one in limits], axis=0)
+
+        def lay(end: float) -> tuple[float, float, float]:
+            width = (page - end) / columns - LEFT
+            metres = float(max(sides[0] / width, sides[1] / (TALLEST * width)))
+            return width, max(float(sides[1]) / metres, LEAST_HEIGHT), metres
+
+        low, end = 0.0, COLOUR_BAR if colour_bar else RIGHT
+        width, height, metres = lay(end)
+        if colour_bar and rows * height < COLOUR_BAR_LENGTH:
+            low, end = COLOUR_BAR_UNDER, RIGHT
+            width, height, metres = lay(end)
+        return cls(limits, columns, rows, metres, (width, height), low, end, page)
+
+    @property
+    def step(self) -> float:
+        """Height of a row with its title and labels."""
+        return BELOW + self.cell[1] + (TITLE if len(self.limits) > 1 else 0.0)
+
+    @property
+    def height(self) -> float:
+        return self.low + self.rows * self.step + LEGEND
+
+    @property
+    def colour_bar(self) -> tuple[float, float, float, float]:
+        """Left, bottom, width and height: under the plans where they are flat, else at their right."""
+        if self.low:
+            return LEFT, 0.34, self.width - LEFT - RIGHT, 0.07
+        length = min(self.height - BELOW - LEGEND, 3.0)
+        middle = (BELOW + self.height - LEGEND) / 2.0
+        return self.width - self.end + 0.12, middle - length / 2.0, 0.07, length
+
+    def place(self, index: int) -> tuple[Array, float, float]:
+        """Limits of a plan, and left and bottom of its axes, in the middle of its cell."""
+        row, column = divmod(index, self.columns)
+        spare = (np.array(self.cell) - np.ptp(self.limits[index], axis=0) / self.metres) / 2.0
+        left = LEFT + column * (LEFT + self.cell[0]) + float(spare[0])
+        bottom = self.low + BELOW + (self.rows - 1 - row) * self.step + float(spare[1])
+        return self.limits[index], left, bottom
+
+
+def _plans(net: Net) -> list[_Plan]:
+    if net.panels:
+        return [_plan_of(net, panel, title=len(net.panels) > 1) for panel in net.panels]
+    offsets = net.positions - net.positions.mean(axis=0)
+    axes = np.linalg.svd(offsets, full_matrices=False)[2][:2]
+    # The sign of a singular vector is arbitrary: let its largest component be positive.
+    axes *= np.sign(axes[[0, 1], np.abs(axes).argmax(axis=1)])[:, None]
+    return [_Plan("", ("Along", "Across"), offsets @ axes.T, slice(None), slice(None))]
+
+
+def _plan_of(net: Net, panel: Panel, *, title: bool) -> _Plan:
+    points = (net.positions - panel.centre) @ panel.axes.T
+    name = panel.name if title else ""
+    return _Plan(name, ("Width", "Height"), points, slice(*panel.knots), slice(*panel.bars))

@@ -1,0 +1,101 @@
+"""Figures of the net in space: before anything acts, and in equilibrium."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import FancyArrowPatch
+from numpy.typing import ArrayLike, NDArray
+
+from ..solve.result import Result
+from . import style
+from .bars import (
+    draw_bars,
+    draw_knots,
+    draw_tension,
+    line_width,
+    name_marks,
+    slack_name,
+    tension_bar,
+    tension_scale,
+)
+from .space import View, box, far_to_near, seen_extent, space_axes
+
+Array = NDArray[np.float64]
+
+LEFT, RIGHT, LEGEND, NUMBERS, COLOUR_BAR, ARROW = 0.64, 0.25, 0.24, 0.42, 0.46, 0.3  # in, around the box
+ARROW_LENGTH = 0.32  # in, of a current across the line of sight
+
+
+@style.styled
+def initial_position(result: Result, *, current: ArrayLike | None = None) -> Figure:
+    """Show the net before anything acts: its bars and knots, and which knots are fixed.
+
+    current: (3,) m/s, shown as an arrow when given.
+    """
+    net = result.net
+    speed = 0.0 if current is None else float(np.linalg.norm(current))
+    figure, ax, view = _in_space(result, above=LEGEND + (ARROW if speed else 0.0), below=NUMBERS)
+    seen = view.see(net.positions)
+    draw_bars(
+        ax, seen[:, :2], net.bars, colors=style.BLUE, linewidths=0.6 * line_width(net.bar_count), gid="bars"
+    )
+    draw_knots(ax, seen[:, :2], net.fixed, free=True)
+    if speed:
+        _draw_current(figure, view, np.asarray(current, dtype=float) / speed, speed)
+    name_marks(figure)
+    return figure
+
+
+@style.styled
+def equilibrium_shape(result: Result) -> Figure:
+    """Show the last frame in space: every bar in the colour of its tension, slack bars grey and dashed."""
+    net, tension = result.net, result.tension[-1]
+    taut = bool(np.any(tension > 0.0))
+    scale = tension_scale(tension)
+    figure, ax, view = _in_space(result, above=LEGEND, below=NUMBERS + (COLOUR_BAR if taut else 0.0))
+    seen = view.see(result.position[-1])
+    order = far_to_near(seen, net.bars)
+    draw_tension(ax, seen[:, :2], net.bars[order], tension[order], scale, named=slack_name(tension))
+    draw_knots(ax, seen[:, :2], net.fixed)
+    if taut:
+        tension_bar(figure, (0.55, 0.34, style.SINGLE_COLUMN - 1.1, 0.07), scale)
+    name_marks(figure)
+    return figure
+
+
+def _in_space(result: Result, *, above: float, below: float) -> tuple[Figure, Axes, View]:
+    """Start a figure of one column; the same box holds the first and the last shape, so that figures compare."""
+    corners = box(result.net.positions, result.position[-1])
+    width = style.SINGLE_COLUMN - LEFT - RIGHT
+    seen = np.ptp(seen_extent(corners), axis=0)
+    height = float(np.clip(width * seen[1] / seen[0], 0.4 * width, 1.1 * width))
+    figure = Figure(figsize=(style.SINGLE_COLUMN, below + height + above))
+    return figure, *space_axes(figure, corners, (LEFT, below, width, height))
+
+
+def _draw_current(figure: Figure, view: View, direction: Array, speed: float) -> None:
+    """Draw an arrow as the current is seen, with its speed (m/s), above the axes on the left."""
+    left, up = 0.45, figure.get_figheight() - LEGEND - ARROW / 2.0
+    du, dv = view.axes[:2] @ direction * ARROW_LENGTH / 2.0
+    arrow = FancyArrowPatch(
+        (left - du, up - dv),
+        (left + du, up + dv),
+        transform=figure.dpi_scale_trans,
+        arrowstyle="-|>",
+        mutation_scale=7.0,
+        linewidth=1.0,
+        color=style.VERMILION,
+        shrinkA=0.0,
+        shrinkB=0.0,
+    )
+    figure.add_artist(arrow)
+    figure.text(
+        left + ARROW_LENGTH / 2.0 + 0.08,
+        up,
+        f"current, {speed:.3g} m/s",
+        transform=figure.dpi_scale_trans,
+        ha="left",
+        va="center",
+    )
