@@ -1,0 +1,115 @@
+"""A net on its way to equilibrium: positions, forces, tangent and counters of one static solve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free, load_at_rest
+from ..system.system import State, System
+from .linear import Factorizer, Pattern, factorizer
+
+Array = NDArray[np.float64]
+Solve = Callable[[Array], Array]
+
+# Rounding of a residual: so many units in the last place of stiffness times coordinate.
+ROUNDING = 8.0
+
+
+@dataclass
+class Work:
+    """Work arrays, n knots and m bars.
+
+    t: (m, 3) unit vectors; length: (m,) m; f, k: (m,) law (N) and slope (N/m); block: (m, 3, 3) stiffness (N/m);
+    load, total: (n, 3) N; right: (3 n_free,) N; data: of the tangent; dx: (n, 3) m.
+    """
+
+    t: Array
+    length: Array
+    f: Array
+    k: Array
+    block: Array
+    load: Array
+    total: Array
+    right: Array
+    data: Array
+    dx: Array
+
+    @classmethod
+    def of(cls, n: int, m: int, pattern: Pattern) -> Work:
+        """Return arrays of zeros."""
+        z = np.zeros
+        size = len(pattern.indptr) - 1
+        return cls(
+            z((m, 3)),
+            z(m),
+            z(m),
+            z(m),
+            z((m, 3, 3)),
+            z((n, 3)),
+            z((n, 3)),
+            z(size),
+            z(len(pattern.indices)),
+            z((n, 3)),
+        )
+
+
+class Equilibrium:
+    """Positions about the net's middle, the forces there, and how often the tangent was factorized."""
+
+    def __init__(self, system: System, start: State, linear: Factorizer | None) -> None:
+        self.system, self.el = system, system.elements
+        self.pattern = Pattern.of(self.el)
+        self.linear = linear or factorizer(self.pattern)
+        # About the net's middle, coordinates are smallest and so is their rounding.
+        self.origin = start.position.mean(axis=0)
+        self.x = start.position - self.origin
+        self.u = system.current.velocity(start.position, start.time)
+        self.b = Work.of(len(self.x), len(self.el.knot_a), self.pattern)
+        self.iterations = self.factorizations = 0
+        self.residual, self.worst = self.true_residual()
+        self.good = self.x.copy()
+
+    @property
+    def floor(self) -> float:
+        """Residual (N) that rounding of the coordinates makes."""
+        size = float(np.abs(self.x).max(initial=0.0))
+        return ROUNDING * float(np.finfo(float).eps) * float(self.el.stiffness.max(initial=0.0)) * size
+
+    def true_residual(self) -> tuple[float, int]:
+        """Largest unbalanced force (N) on a free knot, and that knot."""
+        b, el = self.b, self.el
+        bar_geometry(self.x, el, b.t, b.length)
+        elastic(b.length - el.rest_length, el, b.f, b.k)
+        load_at_rest(self.u, el, b.t, b.length, b.load)
+        b.total[:] = b.load
+        add_tension(np.maximum(b.f, 0.0), el, b.t, b.total)
+        worst, where = largest_on_free(b.total, el.free)
+        return float(worst), int(where)
+
+    def factor(self) -> Solve:
+        """Factorize the tangent for the present stiffness blocks."""
+        b = self.b
+        assemble(b.block, self.u, self.el, b.t, self.pattern.start, self.pattern.stride, b.data)
+        self.factorizations += 1
+        return self.linear.factor(b.data)
+
+    def move(self, solve: Solve) -> None:
+        """Motion of the free knots for the present right side."""
+        self.b.dx[self.pattern.free] = solve(self.b.right).reshape(-1, 3)
+
+    def begin_at(self, x: Array) -> None:
+        """Go to positions x (n, 3) m about the origin."""
+        self.x[:] = x
+        self.residual, self.worst = self.true_residual()
+
+    def accept(self, step: float) -> None:
+        """Take a step and judge it."""
+        self.x += step * self.b.dx
+        self.iterations += 1
+        self.residual, self.worst = self.true_residual()
+        if np.isfinite(self.residual):
+            self.good[:] = self.x

@@ -1,0 +1,75 @@
+"""Statics far from equilibrium: predictor and corrector on second-order cones (solve.cone)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..forces.bars import elastic
+from . import cone
+from .equilibrium import Equilibrium, Solve
+
+# Fraction of the way to the edge of the cone that one step may take.
+TO_EDGE = 0.98
+# Strain that every bar is at least allowed at the start.
+START_STRAIN = 0.05
+# Least centring, (mu_affine / mu)^3 being Mehrotra's.
+LEAST_CENTRING = 1e-6
+
+
+class Far:
+    """Steps on cones."""
+
+    def __init__(self, s: Equilibrium) -> None:
+        self.s, el = s, s.el
+        m = len(el.knot_a)
+        z = np.zeros
+        self.f, self.k = z(m), z(m)
+        self.scaling, self.scaled, self.row = z((m, 5)), z((m, 4)), z((m, 4))
+        self.target, self.cross, self.push = z((m, 4)), z((m, 4)), z((m, 3))
+        self.Y, self.Z, self.dY, self.dZ = z((m, 4)), z((m, 4)), z((m, 4)), z((m, 4))
+        held = np.count_nonzero((el.free[el.knot_a] == 0.0) | (el.free[el.knot_b] == 0.0))
+        tension = np.linalg.norm(s.b.load, axis=1).sum() / max(held, 1)
+        tension = max(tension, float(s.b.f.max(initial=0.0)), s.floor)
+        allowance = np.maximum(tension / el.stiffness, START_STRAIN * el.rest_length)
+        self.Y[:, 0] = el.rest_length + np.maximum(s.b.length - el.rest_length, 0.0) + allowance
+        self.Y[:, 1:] = s.x[el.knot_b] - s.x[el.knot_a]
+        self.Z[:, 0] = tension
+        # Halfway between no dual force and the one of the central path.
+        self.Z[:, 1:] = -0.5 * tension * self.Y[:, 1:] / self.Y[:, :1]
+
+    def near(self, gap: float) -> bool:
+        """Whether a bar is so near to its cone's edge, over its length, that the near field may take over."""
+        return bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < gap)
+
+    def step(self) -> float:
+        """Predictor and corrector; return the length of the step taken."""
+        s, b = self.s, self.s.b
+        elastic(self.Y[:, 0] - s.el.rest_length, s.el, self.f, self.k)
+        mu = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, 0.0)
+        cone.scaling_point(self.Y, self.Z, self.scaling, self.scaled)
+        cone.cone_stiffness(self.scaling, self.k, b.block, self.row)
+        solve = s.factor()
+        self.cross[:] = 0.0
+        self._direction(solve, 0.0)
+        affine = min(1.0, cone.cone_step(self.Y, self.dY), cone.cone_step(self.Z, self.dZ))
+        ratio = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, affine) / mu
+        cone.cone_cross(self.scaling, self.dY, self.dZ, affine * affine, self.cross)
+        self._direction(solve, min(1.0, max(ratio**3, LEAST_CENTRING)) * mu)
+        step: float = min(
+            1.0, TO_EDGE * cone.cone_step(self.Y, self.dY), TO_EDGE * cone.cone_step(self.Z, self.dZ)
+        )
+        self.Y += step * self.dY
+        self.Z += step * self.dZ
+        s.accept(step)
+        return step
+
+    def _direction(self, solve: Solve, centre: float) -> None:
+        s, b = self.s, self.s.b
+        cone.cone_target(self.scaling, self.scaled, centre, self.cross, self.target)
+        cone.cone_right_side(
+            b.load, self.Z, self.f, self.target, self.row, s.el, s.pattern.free, self.push, b.total, b.right
+        )
+        s.move(solve)
+        cone.cone_changes(
+            b.dx, self.Z, self.f, self.k, self.target, self.row, self.push, b.block, s.el, self.dY, self.dZ
+        )

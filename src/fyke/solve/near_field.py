@@ -1,0 +1,71 @@
+"""Statics near equilibrium: predictor and corrector on tension and slack (solve.central_path)."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import central_path as path
+from .equilibrium import Equilibrium, Solve
+from .far_field import LEAST_CENTRING, Far
+
+Array = NDArray[np.float64]
+
+# Fraction of the way to the edge that one step may take at least; more when the predictor does well.
+TO_EDGE_NEAR = 0.95
+# Largest rotation of a bar in one step (rad).
+LARGEST_ROTATION = 0.5
+# Least centring where rotations cut the step below CUT.
+LEAST_CENTRING_CUT = 0.1
+CUT = 0.3
+
+
+class Near:
+    """Steps on tension and slack."""
+
+    def __init__(self, s: Equilibrium, far: Far) -> None:
+        self.s = s
+        m = len(s.el.knot_a)
+        z = np.zeros
+        gap = far.Y[:, 0] - np.linalg.norm(far.Y[:, 1:], axis=1)
+        tiny = np.finfo(float).tiny
+        self.T = np.maximum(far.Z[:, 0], tiny)
+        self.w = np.maximum(self.T - s.b.f, np.maximum(s.el.stiffness * gap, tiny))
+        self.target, self.cross, self.r, self.bent = z(m), z(m), z(m), z(m)
+        self.de, self.dT, self.dw = z(m), z(m), z(m)
+
+    def step(self) -> float:
+        """Predictor and corrector; return the length of the step taken."""
+        s, b = self.s, self.s.b
+        np.subtract(self.w, self.T, out=self.r)
+        self.r += b.f
+        mu = path.path_product(self.T, self.w, self.dT, self.dw, 0.0)
+        path.path_stiffness(self.T, self.w, b.k, b.t, b.length, b.block)
+        solve = s.factor()
+        self.cross[:] = 0.0
+        turn = self._direction(solve, 0.0, self.r)
+        affine = min(1.0, path.path_step(self.T, self.w, self.dT, self.dw))
+        turning = min(1.0, LARGEST_ROTATION / max(turn, LARGEST_ROTATION))
+        ratio = path.path_product(self.T, self.w, self.dT, self.dw, affine) / mu
+        least = LEAST_CENTRING_CUT if turning < CUT else LEAST_CENTRING
+        path.second_order(s.x, b.dx, self.de, min(affine, turning), s.el, b.length, b.k, self.r, self.bent)
+        np.multiply(self.dT, self.dw, out=self.cross)
+        self.cross *= affine * turning
+        turn = self._direction(solve, min(1.0, max(ratio**3, least)) * mu, self.bent)
+        turning = LARGEST_ROTATION / max(turn, LARGEST_ROTATION)
+        edge = max(TO_EDGE_NEAR, 1.0 - ratio)
+        step: float = min(turning, edge * path.path_step(self.T, self.w, self.dT, self.dw))
+        self.T += step * self.dT
+        self.w += step * self.dw
+        s.accept(step)
+        return step
+
+    def _direction(self, solve: Solve, mu: float, r: Array) -> float:
+        s, b = self.s, self.s.b
+        path.path_target(mu, self.T, self.w, r, self.cross, self.target)
+        path.path_right_side(b.load, self.T, self.target, s.el, b.t, s.pattern.free, b.total, b.right)
+        s.move(solve)
+        turn = path.path_changes(
+            b.dx, self.T, self.w, b.k, r, self.target, s.el, b.t, self.de, self.dT, self.dw
+        )
+        return float(turn)
