@@ -146,9 +146,6 @@ def test_line_hanging_in_a_current(row):
         assert np.abs(hanging_errors(row, result)).max() < 1e-3
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the first steps turn bars past the current, up to 1.5 m/s and 85 degrees"
-)
 def test_line_let_go_straight_down():
     """The start that a user draws, however strong the current."""
     for row in HANGING:
@@ -156,9 +153,6 @@ def test_line_let_go_straight_down():
             assert hang(row, bars, angle=0.0).outcome.ok, (name_of(row), bars)
 
 
-@pytest.mark.xfail(
-    strict=True, reason="the rounding of coordinates is judged on the start, not on the shape found"
-)
 def test_line_let_go_gathered():
     """A hundred metres of wire laid out over one, the rest slack."""
     row = next(r for r in HANGING if name_of(r) == "wire_warp 0.1 m/s")

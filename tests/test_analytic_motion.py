@@ -97,19 +97,7 @@ def test_order_on_a_sinking_sphere(method, order, steps):
     assert slopes(errors) == pytest.approx(order, abs=0.25)
 
 
-@pytest.mark.parametrize(
-    "added_mass",
-    [
-        0.0,
-        pytest.param(
-            1.0,
-            marks=pytest.mark.xfail(
-                strict=True,
-                reason="leapfrog's implicit drag leaves out the added mass of the bars: first order",
-            ),
-        ),
-    ],
-)
+@pytest.mark.parametrize("added_mass", [0.0, 1.0])
 def test_leapfrog_is_of_second_order_on_a_sinking_bar(added_mass):
     speed = np.sqrt(np.pi / 2.0 * 3e-3 * 0.14 * 9.81 / 1.2)
     tau = time_scale(speed, 1140.0, added_mass)

@@ -181,3 +181,27 @@ def test_leapfrog_keeps_its_energy_at_the_stable_step(nylon):
     energy = [total_energy(system, evaluate(system, start))]
     end = fyke.simulate(system, duration=2000 * bound, stepper=fyke.Symplectic(), start=start).frame()
     assert total_energy(system, end) == pytest.approx(energy[0], rel=1e-2)
+
+
+def test_a_knot_without_mass_is_named(nylon):
+    weightless = replace(nylon, density=0.0)
+    net = fyke.line(weightless, [[0, 0, 0], [0.03, 0, 0], [0.06, 0, 0]], 0.03)
+    outcome = fyke.simulate(
+        fyke.make_system(net, coefficients=fyke.Coefficients(added_mass_bar=0.0)), duration=0.01
+    ).outcome
+    assert outcome.name == "singular" and "knot 1 is free and has no mass" in outcome.message
+
+
+def test_held_knots_need_no_mass(nylon):
+    """A weightless line with a ball in its middle, swinging in still water."""
+    net = fyke.line(
+        replace(nylon, density=0.0), [[-1.1, 0, 0], [0.05, 0, 0], [1.1, 0, 0]], 1.0, knot_diameter=[0, 0.1, 0],
+        knot_density=1000.0,
+    )  # fmt: skip
+    for stepper in STEPPERS:
+        assert fyke.simulate(fyke.make_system(net), duration=0.01, stepper=stepper).outcome.ok
+
+
+def test_tolerances_of_verner_must_be_reachable():
+    with pytest.raises(ValueError, match="atol 0 must be above 0"):
+        fyke.Verner(atol=0.0)

@@ -41,11 +41,14 @@ def mass_matrices(x, el, out):  # type: ignore[no-untyped-def]
 def invert_masses(mass, free):  # type: ignore[no-untyped-def]
     """Invert symmetric matrices (n, 6) in place; zero for the held knots, so that they do not move."""
     for i in range(mass.shape[0]):
+        if free[i] == 0.0:
+            mass[i, :] = 0.0
+            continue
         xx, yy, zz, xy, xz, yz = mass[i]
         c0 = yy * zz - yz * yz
         c1 = xz * yz - xy * zz
         c2 = xy * yz - xz * yy
-        s = free[i] / (xx * c0 + xy * c1 + xz * c2)
+        s = 1.0 / (xx * c0 + xy * c1 + xz * c2)
         mass[i, 0] = s * c0
         mass[i, 1] = s * (xx * zz - xz * xz)
         mass[i, 2] = s * (xx * yy - xy * xy)

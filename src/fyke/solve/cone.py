@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 
 from ..forces.compiled import OPTIONS
+from ..forces.total import TINY_LENGTH
 
 
 @njit(**OPTIONS)
@@ -155,6 +156,21 @@ def cone_step(Y, dY):  # type: ignore[no-untyped-def]
         if d[0] < 0.0:
             longest = min(longest, -y[0] / d[0])
     return longest
+
+
+@njit(**OPTIONS)
+def cone_turn(Y, dY):  # type: ignore[no-untyped-def]
+    """Return the largest motion of a bar's end across the bar over its allowed length, about its rotation (rad)."""
+    square = 0.0
+    for e in range(Y.shape[0]):
+        along = across = length = 0.0
+        for q in range(1, 4):
+            along += Y[e, q] * dY[e, q]
+            across += dY[e, q] * dY[e, q]
+            length += Y[e, q] * Y[e, q]
+        across -= along * along / max(length, TINY_LENGTH)
+        square = max(square, across / (Y[e, 0] * Y[e, 0]))
+    return np.sqrt(square)
 
 
 @njit(**OPTIONS)

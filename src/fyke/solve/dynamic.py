@@ -130,6 +130,14 @@ def _loop(
 ) -> Verdict:
     """From output time to output time until the end, rest or a fault."""
     begin = run.state.time
+    massless = np.flatnonzero((system.elements.free > 0.0) & (system.elements.knot_mass == 0.0))
+    if massless.size:
+        _keep(frames, evaluate(system, run.state), on_frame)
+        return (
+            "singular",
+            f"knot {system.net.labels[massless[0]]} is free and has no mass",
+            "give its twine a density or the knot a diameter and a density",
+        )
     _keep(frames, evaluate(system, run.state), on_frame)
     for offset in output_times(duration, every)[1:]:
         while run.state.time < begin + offset:

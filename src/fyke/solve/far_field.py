@@ -10,6 +10,8 @@ from .equilibrium import Equilibrium, Solve
 
 # Fraction of the way to the edge of the cone that one step may take.
 TO_EDGE = 0.98
+# Largest rotation of a bar in one step (rad): a turning bar makes no false stretch here, but the water's load turns.
+LARGEST_TURN = 0.25
 # Strain that every bar is at least allowed at the start.
 START_STRAIN = 0.05
 # Least centring, (mu_affine / mu)^3 being Mehrotra's.
@@ -55,9 +57,9 @@ class Far:
         ratio = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, affine) / mu
         cone.cone_cross(self.scaling, self.dY, self.dZ, affine * affine, self.cross)
         self._direction(solve, min(1.0, max(ratio**3, LEAST_CENTRING)) * mu)
-        step: float = min(
-            1.0, TO_EDGE * cone.cone_step(self.Y, self.dY), TO_EDGE * cone.cone_step(self.Z, self.dZ)
-        )
+        turn = LARGEST_TURN / max(cone.cone_turn(self.Y, self.dY), LARGEST_TURN)
+        edge = TO_EDGE * min(cone.cone_step(self.Y, self.dY), cone.cone_step(self.Z, self.dZ))
+        step: float = min(turn, edge)
         self.Y += step * self.dY
         self.Z += step * self.dZ
         s.accept(step)

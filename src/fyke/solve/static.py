@@ -61,7 +61,7 @@ def solve_static(
         name, message, advice = _floating(system, loose)
     else:
         try:
-            name, message, advice = _iterate(s, max(tolerance, s.floor), max_iterations, on_progress)
+            name, message, advice = _iterate(s, tolerance, max_iterations, on_progress)
         except KeyboardInterrupt:
             name, message = "interrupted", f"stopped by hand after {s.iterations} iterations"
             advice = "the last shape is saved; run it again"
@@ -109,7 +109,8 @@ def _iterate(s: Equilibrium, tolerance: float, limit: int, on_progress: Progress
     far, near, gap = Far(s), None, NEAR
     begin = s.x.copy()
     first, short = max(s.residual, tolerance), 0
-    while not s.residual <= tolerance:
+    # The rounding is that of the shape found, which may be much larger than the start.
+    while not s.residual <= max(tolerance, s.floor):
         if s.iterations >= limit:
             return _out_of_iterations(s)
         if near is None and far.near(gap):

@@ -164,6 +164,11 @@ class Verner:
     max_step: float | None = None
     name: str = "verner"
 
+    def __post_init__(self) -> None:
+        """Refuse tolerances that a net at rest could never meet."""
+        if not (self.rtol >= 0.0 and self.atol > 0.0):
+            raise ValueError(f"rtol {self.rtol:g} must not be below 0 and atol {self.atol:g} must be above 0")
+
     def start(self, system: System, state: State) -> VernerRun:
         """Begin a run."""
         return VernerRun(self, system, state)
