@@ -7,7 +7,7 @@ BIN := $(VENV)/bin
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
-	@$(BIN)/fyke run examples/panel.toml --overwrite
+	@$(BIN)/fyke run examples/panel.toml -o examples/panel --overwrite
 
 test: $(VENV)/.installed-test
 	@echo "== formatter" && $(BIN)/ruff format --check .

@@ -236,7 +236,7 @@ def test_a_file_cut_off_anywhere_is_told(tmp_path):
 
 def test_a_stranger_can_check_the_balance_of_a_solved_panel(tmp_path):
     case = fyke.load_case(EXAMPLE)
-    result = fyke.solve_static(fyke.build_system(fyke.build_net(case), case), case_text=case.text)
+    result = fyke.solve_static(fyke.build_system(fyke.build_net(case), case))
     fyke.save(result, tmp_path / "result.nc")
     assert_same(fyke.load(tmp_path / "result.nc"), result)
     with xr.open_dataset(tmp_path / "result.nc", engine="h5netcdf") as data:

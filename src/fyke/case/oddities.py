@@ -41,10 +41,10 @@ def _thin_knots(case: Case) -> Iterator[str]:
 
 
 def _frames(case: Case) -> Iterator[str]:
-    for number, panel in enumerate(case.gear, 1):
+    for panel in case.gear:
         netting = case.netting[panel.netting]
         bars = (netting.mesh, panel.meshes, netting.bar_length, panel.size)
-        what = f"panel '{panel.name or number}'"
+        what = f"panel '{panel.name}'" if panel.name else "the panel"
         strain = max(flat_strain(*bars))
         # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
         if strain > 1e-9:

@@ -65,7 +65,6 @@ def simulate(
     every: float | None = None,
     settle: Settle | None = None,
     start: State | None = None,
-    case_text: str = "",
     on_frame: Callable[[Frame], None] | None = None,
     on_progress: Progress | None = None,
 ) -> Result:
@@ -102,7 +101,7 @@ def simulate(
         force_evaluations=run.count.evaluations,
         warnings=warnings + strain_warnings(system.net, frames),
     )
-    return Result.from_frames(system.net, outcome, system.weight_in_water, frames, case_text)
+    return Result.from_frames(system.net, outcome, system.weight_in_water, frames, system.case_text)
 
 
 def _step_warnings(system: System, state: State, method: Stepper) -> tuple[str, ...]:

@@ -50,9 +50,7 @@ def solve_case(
     """Do what the case's [solve] asks; on_frame gets every frame as it comes, on_progress a fraction and a text."""
     chosen = case.solve
     if not isinstance(chosen, DynamicSolve):
-        result = solve_static(
-            system, tolerance=chosen.tolerance, case_text=case.text, on_progress=on_progress
-        )
+        result = solve_static(system, tolerance=chosen.tolerance, on_progress=on_progress)
         if on_frame is not None:
             on_frame(result.frame())
         return result
@@ -63,7 +61,6 @@ def solve_case(
         stepper=stepper_of(chosen),
         every=case.output.every,
         settle=settle if settle != Settle() else None,
-        case_text=case.text,
         on_frame=on_frame,
         on_progress=on_progress,
     )

@@ -45,7 +45,6 @@ def solve_static(
     max_iterations: int = 100,
     start: State | None = None,
     linear: Factorizer | None = None,
-    case_text: str = "",
     on_progress: Progress | None = None,
 ) -> Result:
     """Find the static equilibrium of a net.
@@ -81,7 +80,7 @@ def solve_static(
         wall_time=time.perf_counter() - began,
         warnings=strain_warnings(system.net, [frame]),
     )
-    return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], case_text)
+    return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 
 
 def loose_knots(system: System) -> NDArray[np.int64]:

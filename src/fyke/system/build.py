@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,7 +73,7 @@ def build_net(case: Case) -> Net:
 def build_system(net: Net, case: Case) -> System:
     """Put a net into the water of a case."""
     water = case.water
-    return make_system(
+    system = make_system(
         net,
         current=case.current.velocity,
         water=Water(water.density, water.kinematic_viscosity, water.gravity),
@@ -85,6 +85,7 @@ def build_system(net: Net, case: Case) -> System:
             added_mass_knot=case.added_mass.knots,
         ),
     )
+    return replace(system, case_text=case.text)
 
 
 def make_system(

@@ -28,7 +28,7 @@ class System:
     """A net in water, frozen: the net, the current and the arrays of the kernels.
 
     weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; sources: one line for each
-    law, with what it says and where it comes from.
+    law, with what it says and where it comes from; case_text: the case file behind it, "" when made in Python.
     """
 
     net: Net
@@ -36,6 +36,7 @@ class System:
     elements: Elements
     weight_in_water: float
     sources: tuple[str, ...] = ()
+    case_text: str = ""
 
     def at_rest(self) -> State:
         """Return the state that the net was built in, at rest at time 0."""
