@@ -129,9 +129,9 @@ def force_per_bar(system: fyke.System) -> float:
     u = system.current.velocity(x, 0.0)
     rel, g = work_arrays(len(x))
     out = np.empty_like(x)
-    count = max(1, 500_000 // system.net.bar_count)
+    count = max(1, 200_000 // system.net.bar_count)
     args = (count, x, v, u, system.elements, rel, g, out)
-    return best(lambda: many_forces(*args), 15) / count / system.net.bar_count
+    return best(lambda: many_forces(*args), 60) / count / system.net.bar_count
 
 
 def explicit() -> list[Row]:
@@ -166,6 +166,16 @@ def explicit() -> list[Row]:
     return rows
 
 
+IMPORTS = """
+import time
+began = time.perf_counter()
+import fyke
+fyke.load_case, fyke.solve_static, fyke.simulate, fyke.save
+import matplotlib.figure
+print(time.perf_counter() - began)
+"""
+
+
 def command_line() -> list[Row]:
     """Whole commands: warm, importing, and the first run ever with an empty cache of compiled code."""
     with tempfile.TemporaryDirectory() as folder:
@@ -188,13 +198,17 @@ def command_line() -> list[Row]:
 
         warm = best(lambda: run("warm"), 3)
         first = run("first", NUMBA_CACHE_DIR=f"{folder}/cache")
-        began = time.perf_counter()
-        code = "import fyke; fyke.load_case, fyke.solve_static, fyke.save; import matplotlib.figure"
-        subprocess.run([sys.executable, "-c", code], check=True)
-        importing = time.perf_counter() - began
+        importing = min(
+            float(
+                subprocess.run(
+                    [sys.executable, "-c", IMPORTS], check=True, capture_output=True, text=True
+                ).stdout
+            )
+            for _ in range(5)
+        )
     return [
         ("fyke run examples/panel.toml, warm cache", f"{warm:.2f} s", "< 3 s"),
-        ("of which importing everything", f"{importing:.2f} s", "< 1 s"),
+        ("of which importing everything, matplotlib included", f"{importing:.2f} s", "< 1 s"),
         ("the first run ever, compilation included", f"{first:.1f} s", "< 20 s"),
     ]
 
