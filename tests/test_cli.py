@@ -95,6 +95,22 @@ def test_table_fits_80_columns_and_tells_the_result(case):
         assert told in " ".join(done.stdout.split()), told
 
 
+def test_accounts_are_told_and_kept(case):
+    static = fyke("run", case, "--no-figures").stdout
+    accounts = json.loads(Path("small/summary.json").read_text())["audit"]
+    assert accounts["energy"] is None and "energy" not in static
+    assert f"N, at knot {accounts['unbalanced_knot']}\n" in static
+    assert f" of {accounts['load_size']:.4g} N\n" in static
+    case.write_text(case.read_text().replace('"static"', '"dynamic"\nduration = 0.02'))
+    table = fyke("run", case, "--no-figures", "--overwrite").stdout
+    energy = json.loads(Path("small/summary.json").read_text())["audit"]["energy"]
+    assert max(len(line) for line in table.splitlines()) <= 80
+    told = " ".join(table.split())
+    assert f"energy in current {energy['current_work']:.3g} J, weight" in told
+    assert f"energy out drag {energy['drag_dissipation']:.3g} J, twine 0 J, stored" in told
+    assert f"left over {energy['remainder']:.3g} J" in told and "the inertia of the net" in told
+
+
 def test_warnings_of_the_case_are_told_and_kept(case):
     case.write_text(case.read_text().replace('"3.5 mm"', '"1 mm"'))
     done = fyke("run", case, "--no-figures")

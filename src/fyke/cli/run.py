@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ from ..results import (
     Comparison,
     MeasurementError,
     Recorder,
+    audit,
     compare,
     load,
     save,
@@ -83,7 +85,7 @@ def run_case(file: Path, wishes: Wishes) -> int:
 def _run(case: Case, system: System, folder: Path, wishes: Wishes) -> int:
     result = _solve(case, system, folder / RESULT, wishes)
     comparison = compare(result, case.positions_file) if case.positions_file else None
-    figures = _figures_of(case, result, comparison)
+    figures = _figures_of(case, system, result, comparison)
     write_tables(result, folder)
     write_summary(figures, folder)
     pictures = _draw(case, result, folder, comparison) if wishes.figures else []
@@ -132,9 +134,14 @@ def _as_built(case: Case, system: System) -> Result:
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], case.text)
 
 
-def _figures_of(case: Case, result: Result, comparison: Comparison | None) -> dict[str, Any]:
-    direction = case.current.velocity
-    figures = summary(result, title=case.title, case_sha256=case.sha256, current_direction=direction)
+def _figures_of(case: Case, system: System, result: Result, comparison: Comparison | None) -> dict[str, Any]:
+    figures = summary(
+        result,
+        title=case.title,
+        case_sha256=case.sha256,
+        current_direction=case.current.velocity,
+        audit=audit(system, result),
+    )
     figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings]))
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
@@ -175,7 +182,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("weight in water", quantity(figures["weight_in_water"], "N")),
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
-        ("unbalanced force", quantity(figures["residual"], "N", 2)),
+        *_account_rows(figures["audit"]),
         ("iterations", f"{figures['iterations']} ({methods})"),
         ("time", quantity(figures["wall_time"], "s", 3)),
     ]
@@ -185,4 +192,29 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         apart = f"RMS {figures['measured_rms']:.3g} m over {figures['measured_knots']} knots"
         worst = f"largest {figures['measured_largest']:.3g} m at {figures['measured_largest_knot']}"
         rows.append(("against measured", f"{apart}, {worst}"))
+    return rows
+
+
+def _account_rows(accounts: dict[str, Any]) -> list[tuple[str, str]]:
+    energy, knot = accounts["energy"], accounts["unbalanced_knot"]
+    where = "" if knot is None else f", at knot {knot}"
+    left = f"{math.hypot(*accounts['load_less_reaction']):.2g} of {quantity(accounts['load_size'], 'N')}"
+    rows = [
+        ("unbalanced force", quantity(accounts["unbalanced_force"], "N", 2) + where),
+        ("load less reaction", left if energy is None else f"{left}, the inertia of the net"),
+    ]
+    if energy is not None:
+        taken = {
+            "current": energy["current_work"],
+            "weight and loads": -energy["potential"],
+            "turning added mass": energy["added_mass_work"],
+        }
+        given = {
+            "drag": energy["drag_dissipation"],
+            "twine": energy["twine_dissipation"],
+            "stored": energy["kinetic"] + energy["elastic"],
+            "left over": energy["remainder"],
+        }
+        for what, shares in (("energy in", taken), ("energy out", given)):
+            rows.append((what, ", ".join(f"{name} {quantity(one, 'J', 3)}" for name, one in shares.items())))
     return rows

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..solve.result import Result
 from ..version import __version__
+from .audit import Audit
 from .encoding import case_hash, case_title
 
 Array = NDArray[np.float64]
@@ -41,12 +42,13 @@ def summary(
     title: str | None = None,
     case_sha256: str = "",
     current_direction: ArrayLike | None = None,
+    audit: Audit | None = None,
 ) -> dict[str, Any]:
     """Return the figures of the last frame and of the solve, ready for JSON; NaN and infinity become None.
 
     title and case_sha256: those of the result's case text when left out. current_direction: (3,), of any
     length; it splits the force of the water into drag and lift, which are None without it or in still water.
-    Forces are in N, lengths in m, times in s.
+    audit: the accounts of the run, None when left out. Forces are in N, lengths in m, times in s.
 
     support_reaction: force of the net on its supports, (3,). max_tension_bar: number of the bar with the
     largest tension, counted from 0 as in bars.csv, None when all are slack; max_tension_bar_label: the labels
@@ -88,10 +90,15 @@ def summary(
         "time": outcome.time if outcome.time > 0.0 else None,
         "rejected": outcome.rejected,
         "force_evaluations": outcome.force_evaluations,
+        "audit": None if audit is None else audit.figures(),
     }
     return {key: _finite_or_none(value) for key, value in figures.items()}
 
 
 def _finite_or_none(value: Any) -> Any:
     """JSON knows no NaN and no infinity."""
+    if isinstance(value, dict):
+        return {key: _finite_or_none(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [_finite_or_none(one) for one in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
