@@ -277,8 +277,13 @@ SPOILT = {
     ),
     "stepper unknown": (
         'kind = "static"',
-        'kind = "dynamic"\nduration = 1\nstepper = "newmark"',
-        ("line 23, [solve] stepper", '"newmark"', '"verner" or "symplectic"', "choose"),
+        'kind = "dynamic"\nduration = 1\nstepper = "newmarc"',
+        (
+            "line 23, [solve] stepper",
+            '"newmarc"',
+            '"implicit" or "newmark" or "verner" or "symplectic"',
+            "newmark",
+        ),
     ),
     "dynamic without duration": (
         'kind = "static"',

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from .netting.twine import Twine
     from .results import load, save
     from .solve.dynamic import Settle, simulate
+    from .solve.implicit import Implicit, Newmark
+    from .solve.modes import Modes, modes
     from .solve.outcome import Outcome
     from .solve.result import Result
     from .solve.static import solve_static
@@ -29,8 +31,11 @@ _HOME = {
     "Case": "case",
     "CaseError": "case",
     "Coefficients": "system.build",
+    "Implicit": "solve.implicit",
     "LinearLaw": "netting.elastic",
+    "Modes": "solve.modes",
     "Net": "netting.net",
+    "Newmark": "solve.implicit",
     "Outcome": "solve.outcome",
     "PowerLaw": "netting.elastic",
     "Result": "solve.result",
@@ -48,6 +53,7 @@ _HOME = {
     "load": "results",
     "load_case": "case",
     "make_system": "system.build",
+    "modes": "solve.modes",
     "panel": "netting.panel",
     "parse_case": "case",
     "save": "results",
@@ -59,8 +65,11 @@ __all__ = [
     "Case",
     "CaseError",
     "Coefficients",
+    "Implicit",
     "LinearLaw",
+    "Modes",
     "Net",
+    "Newmark",
     "Outcome",
     "PowerLaw",
     "Result",
@@ -79,6 +88,7 @@ __all__ = [
     "load",
     "load_case",
     "make_system",
+    "modes",
     "panel",
     "parse_case",
     "save",

@@ -59,7 +59,7 @@ def evaluate(system: System, state: State) -> Frame:
     el, n = system.elements, system.net.knot_count
     t, length = np.empty((system.net.bar_count, 3)), np.empty(system.net.bar_count)
     bar_geometry(state.position, el, t, length)
-    tension = bar_tensions(system, state, t, length)
+    tension = bar_tensions(system, state, t, length) if state.tension is None else state.tension
     on_bars, flow = water_on_bars(system, state, t, length)
     rel = system.current.velocity(state.position, state.time) - state.velocity
     water = el.knot_drag[:, None] * np.linalg.norm(rel, axis=1)[:, None] * rel

@@ -15,14 +15,14 @@ from ..forces.compiled import OPTIONS
 
 
 @njit(**OPTIONS)
-def path_stiffness(T, w, k, t, length, block):  # type: ignore[no-untyped-def]
-    """Stiffness T k/(w + T) t t^T + (T/L)(I - t t^T) of every bar into block (m, 3, 3) N/m."""
+def path_stiffness(T, w, k, t, length, along, block):  # type: ignore[no-untyped-def]
+    """Stiffness T k/(w + T) of every bar along itself into along (m,) N/m; with T/L across it into block (m, 3, 3)."""
     for e in range(T.shape[0]):
-        along = T[e] * k[e] / (w[e] + T[e])
+        along[e] = T[e] * k[e] / (w[e] + T[e])
         across = T[e] / length[e]
         for p in range(3):
             for q in range(3):
-                block[e, p, q] = (along - across) * t[e, p] * t[e, q] + (across if p == q else 0.0)
+                block[e, p, q] = (along[e] - across) * t[e, p] * t[e, q] + (across if p == q else 0.0)
 
 
 @njit(**OPTIONS)
@@ -43,18 +43,21 @@ def path_right_side(load, T, target, el, t, free, total, out):  # type: ignore[n
 
 
 @njit(**OPTIONS)
-def path_changes(dx, T, w, k, r, target, el, t, de, dT, dw):  # type: ignore[no-untyped-def]
-    """Elongation de, tension dT and slack dw of every bar for a motion dx (n, 3) m; return the largest rotation."""
+def bar_changes(dx, along, k, r, target, el, t, de, dT, dw):  # type: ignore[no-untyped-def]
+    """Elongation de, tension dT and slack dw of every bar for a motion dx (n, 3) m; return the largest rotation.
+
+    dT = target + along de, dw = dT - k de - r.
+    """
     rotation = 0.0
-    for e in range(T.shape[0]):
+    for e in range(along.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
         d0, d1, d2 = dx[b, 0] - dx[a, 0], dx[b, 1] - dx[a, 1], dx[b, 2] - dx[a, 2]
-        along = d0 * t[e, 0] + d1 * t[e, 1] + d2 * t[e, 2]
-        across = np.sqrt(max(d0 * d0 + d1 * d1 + d2 * d2 - along * along, 0.0))
+        stretch = d0 * t[e, 0] + d1 * t[e, 1] + d2 * t[e, 2]
+        across = np.sqrt(max(d0 * d0 + d1 * d1 + d2 * d2 - stretch * stretch, 0.0))
         rotation = max(rotation, across / el.rest_length[e])
-        de[e] = along
-        dT[e] = target[e] + T[e] * k[e] * along / (w[e] + T[e])
-        dw[e] = dT[e] - k[e] * along - r[e]
+        de[e] = stretch
+        dT[e] = target[e] + along[e] * stretch
+        dw[e] = dT[e] - k[e] * stretch - r[e]
     return rotation
 
 

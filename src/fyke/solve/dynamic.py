@@ -11,11 +11,11 @@ import numpy as np
 from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
 from ..system.system import State, System
+from .implicit import Implicit
 from .outcome import Outcome, OutcomeName
 from .result import Result
 from .stepper import Run, Status, Stepper
 from .strain import strain_warnings
-from .verner import Verner
 
 Progress = Callable[[float, str], None]
 
@@ -74,7 +74,7 @@ def simulate(
     handed every frame as it comes. Ctrl-C ends the run with the frames so far and the outcome "interrupted".
     """
     began = time.perf_counter()
-    method: Stepper = stepper or Verner()
+    method: Stepper = stepper or Implicit()
     state = start or system.at_rest()
     run = method.start(system, state)
     warnings = _step_warnings(system, state, method)
@@ -91,9 +91,9 @@ def simulate(
         message=message,
         advice=advice,
         solver=f"dynamic {method.name}",
-        linear_solver="",
+        linear_solver=run.linear_solver,
         iterations=run.count.steps,
-        factorizations=0,
+        factorizations=run.count.factorizations,
         residual=frames[-1].unbalanced_force,
         wall_time=time.perf_counter() - began,
         time=run.state.time,

@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free, load_at_rest
+from ..system.elements import Elements
 from ..system.system import State, System
-from .linear import Factorizer, Pattern, factorizer
+from .linear import Factorizer, Pattern, Solve, factorizer
 
 Array = NDArray[np.float64]
-Solve = Callable[[Array], Array]
 
 # Rounding of a residual: so many units in the last place of stiffness times coordinate.
 ROUNDING = 8.0
+
+
+def typical_tension(el: Elements, load: Array) -> float:
+    """All loads (n, 3) N together over the bars that end on a held knot, or over one bar when there is none; N."""
+    held = np.count_nonzero((el.free[el.knot_a] == 0.0) | (el.free[el.knot_b] == 0.0))
+    return float(np.linalg.norm(load, axis=1).sum() / max(held, 1))
 
 
 @dataclass

@@ -6,7 +6,8 @@ import numpy as np
 
 from ..forces.bars import elastic
 from . import cone
-from .equilibrium import Equilibrium, Solve
+from .equilibrium import Equilibrium, typical_tension
+from .linear import Solve
 
 # Fraction of the way to the edge of the cone that one step may take.
 TO_EDGE = 0.98
@@ -29,9 +30,7 @@ class Far:
         self.scaling, self.scaled, self.row = z((m, 5)), z((m, 4)), z((m, 4))
         self.target, self.cross, self.push = z((m, 4)), z((m, 4)), z((m, 3))
         self.Y, self.Z, self.dY, self.dZ = z((m, 4)), z((m, 4)), z((m, 4)), z((m, 4))
-        held = np.count_nonzero((el.free[el.knot_a] == 0.0) | (el.free[el.knot_b] == 0.0))
-        tension = np.linalg.norm(s.b.load, axis=1).sum() / max(held, 1)
-        tension = max(tension, float(s.b.f.max(initial=0.0)), s.floor)
+        tension = max(typical_tension(el, s.b.load), float(s.b.f.max(initial=0.0)), s.floor)
         allowance = np.maximum(tension / el.stiffness, START_STRAIN * el.rest_length)
         self.Y[:, 0] = el.rest_length + np.maximum(s.b.length - el.rest_length, 0.0) + allowance
         self.Y[:, 1:] = s.x[el.knot_b] - s.x[el.knot_a]

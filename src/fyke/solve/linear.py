@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from importlib.util import find_spec
+from typing import Any, Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -13,10 +14,13 @@ from numpy.typing import NDArray
 from ..system.elements import Elements
 
 Array = NDArray[np.float64]
+Solve = Callable[[Array], Array]
 
 
-# Below so many unknowns a second thread costs more than it brings.
-SERIAL_BELOW = 5_000
+# Below so many unknowns kept pivots are faster than a supernodal factorization.
+SMALL = 3_000
+# Largest residual, over the right side, that kept pivots may leave.
+KEPT_PIVOTS = 1e-6
 
 
 class SingularMatrixError(Exception):
@@ -90,8 +94,12 @@ class Factorizer(Protocol):
 
     name: str
 
-    def factor(self, data: Array) -> Callable[[Array], Array]:
+    def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""
+
+
+# What rslab raises for a matrix without inverse.
+_FAULTS = (RuntimeError, ValueError, ArithmeticError)
 
 
 class Rslab:
@@ -102,20 +110,68 @@ class Rslab:
     def __init__(self, pattern: Pattern) -> None:
         import rslab
 
-        self._errors = (RuntimeError, ValueError, ArithmeticError)
-        threads = 1 if len(pattern.indptr) <= SERIAL_BELOW else None
-        self._symbolic = rslab.analyze(
-            pattern.matrix(np.ones(len(pattern.indices))), path="lu", threads=threads
-        )
+        self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="lu")
 
-    def factor(self, data: Array) -> Callable[[Array], Array]:
+    def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""
         try:
             handle = self._symbolic.factor(data)
-        except self._errors as error:
+        except _FAULTS as error:
             raise SingularMatrixError(str(error)) from error
-        solve: Callable[[Array], Array] = handle.solve
+        solve: Solve = handle.solve
         return solve
+
+
+class RslabSmall:
+    """RSLAB's KLU for small systems: ordering and pivots of the first matrix are kept, which halves the time.
+
+    The first solution with kept pivots is checked, and computed again with new ones when its residual is too large. The
+    solve of one matrix is good until the next is factorized.
+    """
+
+    name = "rslab KLU"
+
+    def __init__(self, pattern: Pattern) -> None:
+        self._pattern = pattern
+        self._handle: Any = None
+
+    def factor(self, data: Array) -> Solve:
+        """Return the solve of a matrix with this data; raises SingularMatrixError."""
+        matrix = self._pattern.matrix(data)
+        checked = not self._kept(matrix)
+
+        def solve(right: Array) -> Array:
+            nonlocal checked
+            x: Array = self._handle.solve(right)
+            if not checked:
+                checked = True
+                # Written so that a NaN fails it too.
+                if not np.abs(matrix @ x - right).max() <= KEPT_PIVOTS * np.abs(right).max():
+                    self._renew(matrix)
+                    x = self._handle.solve(right)
+            return x
+
+        return solve
+
+    def _kept(self, matrix: sp.csc_matrix) -> bool:
+        """Factorize; whether that was done with kept pivots."""
+        if self._handle is not None:
+            try:
+                self._handle.refactor(matrix.data)
+            except _FAULTS:
+                pass
+            else:
+                return True
+        self._renew(matrix)
+        return False
+
+    def _renew(self, matrix: sp.csc_matrix) -> None:
+        import rslab
+
+        try:
+            self._handle = rslab.klu(matrix)
+        except _FAULTS as error:
+            raise SingularMatrixError(str(error)) from error
 
 
 class SuperLU:
@@ -126,7 +182,7 @@ class SuperLU:
     def __init__(self, pattern: Pattern) -> None:
         self._pattern = pattern
 
-    def factor(self, data: Array) -> Callable[[Array], Array]:
+    def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""
         from scipy.sparse.linalg import splu
 
@@ -136,13 +192,12 @@ class SuperLU:
             )
         except RuntimeError as error:
             raise SingularMatrixError(str(error)) from error
-        solve: Callable[[Array], Array] = handle.solve
+        solve: Solve = handle.solve
         return solve
 
 
 def factorizer(pattern: Pattern) -> Factorizer:
     """Return the fastest solver that is installed."""
-    try:
-        return Rslab(pattern)
-    except ImportError:
+    if find_spec("rslab") is None:
         return SuperLU(pattern)
+    return RslabSmall(pattern) if len(pattern.indptr) <= SMALL else Rslab(pattern)

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import central_path as path
-from .equilibrium import Equilibrium, Solve
+from .equilibrium import Equilibrium
 from .far_field import LEAST_CENTRING, Far
+from .linear import Solve
 
 Array = NDArray[np.float64]
 
@@ -31,7 +32,7 @@ class Near:
         tiny = np.finfo(float).tiny
         self.T = np.maximum(far.Z[:, 0], tiny)
         self.w = np.maximum(self.T - s.b.f, np.maximum(s.el.stiffness * gap, tiny))
-        self.target, self.cross, self.r, self.bent = z(m), z(m), z(m), z(m)
+        self.along, self.target, self.cross, self.r, self.bent = z(m), z(m), z(m), z(m), z(m)
         self.de, self.dT, self.dw = z(m), z(m), z(m)
 
     def step(self) -> float:
@@ -40,7 +41,7 @@ class Near:
         np.subtract(self.w, self.T, out=self.r)
         self.r += b.f
         mu = path.path_product(self.T, self.w, self.dT, self.dw, 0.0)
-        path.path_stiffness(self.T, self.w, b.k, b.t, b.length, b.block)
+        path.path_stiffness(self.T, self.w, b.k, b.t, b.length, self.along, b.block)
         solve = s.factor()
         self.cross[:] = 0.0
         turn = self._direction(solve, 0.0, self.r)
@@ -65,7 +66,5 @@ class Near:
         path.path_target(mu, self.T, self.w, r, self.cross, self.target)
         path.path_right_side(b.load, self.T, self.target, s.el, b.t, s.pattern.free, b.total, b.right)
         s.move(solve)
-        turn = path.path_changes(
-            b.dx, self.T, self.w, b.k, r, self.target, s.el, b.t, self.de, self.dT, self.dw
-        )
+        turn = path.bar_changes(b.dx, self.along, b.k, r, self.target, s.el, b.t, self.de, self.dT, self.dw)
         return float(turn)

@@ -10,7 +10,9 @@ from ..forces.frame import Frame
 from ..system.system import System
 from .cone import cone_changes
 from .dynamic import Settle, output_times, simulate
+from .implicit import Implicit, Newmark
 from .result import Result
+from .smooth import assemble_step
 from .static import solve_static
 from .stepper import Stepper
 from .symplectic import Symplectic, leap
@@ -26,18 +28,33 @@ def planned_frames(case: Case) -> int:
     return 1
 
 
+STEPPERS: dict[str, Callable[..., Stepper]] = {
+    "implicit": Implicit,
+    "newmark": Newmark,
+    "verner": Verner,
+    "symplectic": Symplectic,
+}
+# The kernel that takes longest to compile, by what is asked for.
+_KERNELS = {
+    "static": cone_changes,
+    "implicit": assemble_step,
+    "newmark": assemble_step,
+    "verner": advance,
+    "symplectic": leap,
+}
+
+
 def needs_compiling(case: Case) -> bool:
     """Whether a run of the case has to compile its kernels first, which takes some ten seconds, once."""
-    if not isinstance(case.solve, DynamicSolve):
-        return not is_compiled(cone_changes)
-    return not is_compiled(leap if case.solve.stepper == "symplectic" else advance)
+    chosen = case.solve
+    return not is_compiled(_KERNELS[chosen.stepper if isinstance(chosen, DynamicSolve) else "static"])
 
 
 def stepper_of(chosen: DynamicSolve) -> Stepper:
-    """Return the stepper that a dynamic case names."""
-    if chosen.stepper == "symplectic":
-        return Symplectic(max_step=chosen.max_step)
-    return Verner(rtol=chosen.rtol, atol=chosen.atol, max_step=chosen.max_step)
+    """Return the stepper that a dynamic case names, with the options that it gives."""
+    names = ("max_step",) if chosen.stepper == "symplectic" else ("rtol", "atol", "max_step")
+    given = {name: value for name in names if (value := getattr(chosen, name)) is not None}
+    return STEPPERS[chosen.stepper](**given)
 
 
 def solve_case(

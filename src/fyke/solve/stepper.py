@@ -18,11 +18,12 @@ Status = Literal["ok", "not_finite", "step_too_small"]
 
 @dataclass
 class Count:
-    """Steps taken and thrown away, force evaluations."""
+    """Steps taken and thrown away, force evaluations, factorizations."""
 
     steps: int = 0
     rejected: int = 0
     evaluations: int = 0
+    factorizations: int = 0
 
 
 class Run(Protocol):
@@ -31,6 +32,10 @@ class Run(Protocol):
     state: State
     count: Count
     step: float
+
+    @property
+    def linear_solver(self) -> str:
+        """Name of the linear solver, "" where there is none."""
 
     def advance(self, end: float) -> Status:
         """Go on towards the time end (s), as far as one call is worth; state is left untouched on failure."""

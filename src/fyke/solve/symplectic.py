@@ -115,6 +115,8 @@ class Symplectic:
 class SymplecticRun:
     """Leapfrog at work."""
 
+    linear_solver = ""
+
     def __init__(self, method: Symplectic, system: System, state: State) -> None:
         self.method, self.system, self.state = method, system, state
         self.count = Count()

@@ -211,6 +211,8 @@ def stable_step(frequency: float, damping_time: float) -> float:
 class VernerRun:
     """Verner's pair at work."""
 
+    linear_solver = ""
+
     def __init__(self, method: Verner, system: System, state: State) -> None:
         self.method, self.system, self.state = method, system, state
         self.count = Count()

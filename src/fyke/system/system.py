@@ -16,11 +16,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class State:
-    """Time (s), position (n, 3) m, velocity (n, 3) m/s."""
+    """Time (s), position (n, 3) m, velocity (n, 3) m/s.
+
+    tension: (m,) N where a method knows it better than the elastic law does from positions that it does not resolve to
+    the nanometre; None to take the law.
+    """
 
     time: float
     position: Array
     velocity: Array
+    tension: Array | None = None
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,145 @@
+"""Bars in implicit dynamics: tension and slack with a smoothed complementarity.
+
+T >= 0, w = T - g >= 0, T w = 0 with g = f(e) + damping is replaced by the function of Chen & Harker 1993, Kanzow 1996
+and Smale 1987, T + w = sqrt((T - w)^2 + 4 mu), that is T w = mu with both positive at the solution only: Newton may
+pass through anything and starts well from the last step, also when a bar snaps taut.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from ..forces.compiled import OPTIONS
+from ..forces.drag import bar_water_force, bar_water_tangent
+
+
+@njit(**OPTIONS)
+def smooth_bars(T, w, g, mu, p, r, c):  # type: ignore[no-untyped-def]
+    """Share p in [0, 1] of a bar's stiffness that acts, residual r = w - T + g and change c of T without motion (N).
+
+    Returns the largest violation of T + w = sqrt((T - w)^2 + 4 mu) and the largest r, in N.
+    """
+    largest_phi = largest_r = 0.0
+    for e in range(T.shape[0]):
+        root = np.sqrt((T[e] - w[e]) ** 2 + 4.0 * mu)
+        phi = T[e] + w[e] - root
+        p[e] = 0.5 * (1.0 + (T[e] - w[e]) / root)
+        r[e] = w[e] - T[e] + g[e]
+        c[e] = p[e] * r[e] - 0.5 * phi
+        largest_phi = max(largest_phi, abs(phi))
+        largest_r = max(largest_r, abs(r[e]))
+    return largest_phi, largest_r
+
+
+@njit(**OPTIONS)
+def moving_load(v, u, el, t, length, out):  # type: ignore[no-untyped-def]
+    """Weight, buoyancy and water on every moving knot into out (n, 3) N; v, u: (n, 3) m/s."""
+    for i in range(out.shape[0]):
+        w0, w1, w2 = u[i, 0] - v[i, 0], u[i, 1] - v[i, 1], u[i, 2] - v[i, 2]
+        c = el.knot_drag[i] * np.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
+        out[i, 0] = el.weight[i, 0] + c * w0
+        out[i, 1] = el.weight[i, 1] + c * w1
+        out[i, 2] = el.weight[i, 2] + c * w2
+    for e in range(length.shape[0]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        f = bar_water_force(
+            0.5 * (u[a, 0] - v[a, 0] + u[b, 0] - v[b, 0]),
+            0.5 * (u[a, 1] - v[a, 1] + u[b, 1] - v[b, 1]),
+            0.5 * (u[a, 2] - v[a, 2] + u[b, 2] - v[b, 2]),
+            t[e, 0],
+            t[e, 1],
+            t[e, 2],
+            el.normal_drag[e] * length[e],
+            el.tangential_drag[e] * length[e],
+        )
+        for q in range(3):
+            out[a, q] += f[q]
+            out[b, q] += f[q]
+
+
+@njit(**OPTIONS)
+def assemble_step(v, u, el, t, length, T, along, c0, c1, cm, mass, start, stride, diagonal, data):  # type: ignore[no-untyped-def]
+    """Matrix cm M + c1 C + c0 K of one step on the pattern's data; K = -dF/dx, C = -dF/dv.
+
+    along: (m,) N/m, stiffness of a bar along itself, damping included; T: (m,) N; mass: (n, 6) kg.
+    """
+    data[:] = 0.0
+    turn = np.zeros((3, 3))
+    w = np.zeros(3)
+    for e in range(along.shape[0]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        for q in range(3):
+            w[q] = 0.5 * (u[a, q] - v[a, q] + u[b, q] - v[b, q])
+        t0 = t[e]
+        bar_water_tangent(w, t0, el.normal_drag[e], el.tangential_drag[e], turn)
+        s = w[0] * t0[0] + w[1] * t0[1] + w[2] * t0[2]
+        n0, n1, n2 = w[0] - s * t0[0], w[1] - s * t0[1], w[2] - s * t0[2]
+        size = np.sqrt(n0 * n0 + n1 * n1 + n2 * n2)
+        inverse = 1.0 / size if size > 0.0 else 0.0
+        n = (n0, n1, n2)
+        cn = 0.5 * c1 * el.normal_drag[e] * length[e]
+        ct = c1 * el.tangential_drag[e] * length[e] * abs(s)
+        across = max(T[e], 0.0) / length[e]
+        aa, ba, ab, bb = start[e, 0], start[e, 1], start[e, 2], start[e, 3]
+        sa, sb = stride[e, 0], stride[e, 1]
+        for q in range(3):
+            for p in range(3):
+                identity = 1.0 if p == q else 0.0
+                tt = t0[p] * t0[q]
+                k = c0 * ((along[e] - across) * tt + across * identity)
+                d = c0 * turn[p, q]
+                c = cn * (size * (identity - tt) + n[p] * n[q] * inverse) + ct * tt
+                if aa >= 0:
+                    data[aa + q * sa + p] += c + k + d
+                if ba >= 0:
+                    data[ba + q * sa + p] += c + d - k
+                if ab >= 0:
+                    data[ab + q * sb + p] += c - k - d
+                if bb >= 0:
+                    data[bb + q * sb + p] += c + k - d
+    _add_knots(v, u, el, c1, cm, mass, diagonal, data)
+
+
+@njit(**OPTIONS)
+def _add_knots(v, u, el, c1, cm, mass, diagonal, data):  # type: ignore[no-untyped-def]
+    """Add mass and drag of the knots to their own blocks."""
+    block = np.zeros((3, 3))
+    for i in range(v.shape[0]):
+        place, step = diagonal[i, 0], diagonal[i, 1]
+        if place < 0:
+            continue
+        m = mass[i]
+        block[0, 0], block[1, 1], block[2, 2] = m[0], m[1], m[2]
+        block[0, 1] = block[1, 0] = m[3]
+        block[0, 2] = block[2, 0] = m[4]
+        block[1, 2] = block[2, 1] = m[5]
+        w = (u[i, 0] - v[i, 0], u[i, 1] - v[i, 1], u[i, 2] - v[i, 2])
+        size = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+        inverse = 1.0 / size if size > 0.0 else 0.0
+        c = c1 * el.knot_drag[i]
+        for q in range(3):
+            for p in range(3):
+                drag = w[p] * w[q] * inverse + (size if p == q else 0.0)
+                data[place + q * step + p] += cm * block[p, q] + c * drag
+
+
+@njit(**OPTIONS)
+def step_right_side(load, T, c, a, a_old, cm, mass, el, t, free, total, out):  # type: ignore[no-untyped-def]
+    """Load, tension T + c and inertia M (cm a + (1 - cm) a_old), on the free knots, into out (3 n_free,) N."""
+    total[:] = load
+    for e in range(T.shape[0]):
+        i, j = el.knot_a[e], el.knot_b[e]
+        for q in range(3):
+            f = (T[e] + c[e]) * t[e, q]
+            total[i, q] += f
+            total[j, q] -= f
+    for s in range(free.shape[0]):
+        i = free[s]
+        m = mass[i]
+        b0 = cm * a[i, 0] + (1.0 - cm) * a_old[i, 0]
+        b1 = cm * a[i, 1] + (1.0 - cm) * a_old[i, 1]
+        b2 = cm * a[i, 2] + (1.0 - cm) * a_old[i, 2]
+        out[3 * s] = total[i, 0] - m[0] * b0 - m[3] * b1 - m[4] * b2
+        out[3 * s + 1] = total[i, 1] - m[3] * b0 - m[1] * b1 - m[5] * b2
+        out[3 * s + 2] = total[i, 2] - m[4] * b0 - m[5] * b1 - m[2] * b2
