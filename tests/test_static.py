@@ -132,6 +132,29 @@ def test_the_start_does_not_matter(framed):
     assert np.abs(again.position[-1] - plain.position[-1]).max() < 1e-6
 
 
+@pytest.mark.parametrize("panel", [{}, {"fixed": "top"}, {"meshes": (24, 24), "size": (0.9, 0.9)}])
+def test_a_warm_start_takes_a_few_factorizations(framed, panel):
+    """A sweep over current speeds: each solve begins at the last one, and ends where a cold one does."""
+    result = fyke.solve_static(framed(current=(0.5, 0.0, 0.0), **panel))
+    for speed, most in ((0.505, 5), (0.55, 8), (1.0, 12)):
+        system = framed(current=(speed, 0.0, 0.0), **panel)
+        cold = fyke.solve_static(system)
+        result = fyke.solve_static(system, start=result.state())
+        assert result.outcome.ok
+        assert result.outcome.factorizations <= min(most, cold.outcome.factorizations - 2)
+        assert np.abs(result.position[-1] - cold.position[-1]).max() < 1e-6
+
+
+def test_a_warm_start_that_is_none_ends_all_the_same(framed):
+    """Tensions of another net altogether: the solve begins anew and finds the shape."""
+    system = framed()
+    rng = np.random.default_rng(8)
+    nonsense = replace(system.at_rest(), tension=10.0 ** rng.uniform(-6, 4, size=256))
+    result = fyke.solve_static(system, start=nonsense)
+    assert result.outcome.ok
+    assert np.abs(result.position[-1] - fyke.solve_static(system).position[-1]).max() < 1e-6
+
+
 def test_same_input_same_bits(framed):
     a, b = (fyke.solve_static(framed()) for _ in range(2))
     assert a.position.tobytes() == b.position.tobytes()

@@ -76,6 +76,7 @@ def simulate(
     began = time.perf_counter()
     method: Stepper = stepper or Implicit()
     state = start or system.at_rest()
+    state = State(state.time, state.position, state.velocity)
     run = method.start(system, state)
     warnings = _step_warnings(system, state, method)
     frames: list[Frame] = []

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import central_path as path
-from .equilibrium import Equilibrium
+from .equilibrium import Equilibrium, typical_tension
 from .far_field import LEAST_CENTRING, Far
 from .linear import Solve
 
@@ -19,21 +19,35 @@ LARGEST_ROTATION = 0.5
 # Least centring where rotations cut the step below CUT.
 LEAST_CENTRING_CUT = 0.1
 CUT = 0.3
+# Least tension and slack of a warm start, over the typical tension.
+WARM = 1e-2
 
 
 class Near:
     """Steps on tension and slack."""
 
-    def __init__(self, s: Equilibrium, far: Far) -> None:
-        self.s = s
-        m = len(s.el.knot_a)
+    def __init__(self, s: Equilibrium, tension: Array, slack: Array) -> None:
+        """Begin with these tensions and slacks, (m,) N, both above zero."""
+        self.s, self.T, self.w = s, tension, slack
+        m = len(tension)
         z = np.zeros
-        gap = far.Y[:, 0] - np.linalg.norm(far.Y[:, 1:], axis=1)
-        tiny = np.finfo(float).tiny
-        self.T = np.maximum(far.Z[:, 0], tiny)
-        self.w = np.maximum(self.T - s.b.f, np.maximum(s.el.stiffness * gap, tiny))
         self.along, self.target, self.cross, self.r, self.bent = z(m), z(m), z(m), z(m), z(m)
         self.de, self.dT, self.dw = z(m), z(m), z(m)
+
+    @classmethod
+    def after(cls, far: Far) -> Near:
+        """Go on where the far field ends."""
+        s, tiny = far.s, np.finfo(float).tiny
+        gap = far.Y[:, 0] - np.linalg.norm(far.Y[:, 1:], axis=1)
+        tension = np.maximum(far.Z[:, 0], tiny)
+        return cls(s, tension, np.maximum(tension - s.b.f, np.maximum(s.el.stiffness * gap, tiny)))
+
+    @classmethod
+    def warm(cls, s: Equilibrium, tension: Array) -> Near:
+        """Begin with the tensions (m,) N of a net like this one; tension and slack are kept off zero."""
+        least = max(WARM * typical_tension(s.el, s.b.load), np.finfo(float).tiny)
+        held = np.maximum(tension, least)
+        return cls(s, held, np.maximum(held - s.b.f, least))
 
     def step(self) -> float:
         """Predictor and corrector; return the length of the step taken."""

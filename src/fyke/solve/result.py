@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..forces.frame import Frame
 from ..netting.net import Net
+from ..system.system import State
 from .outcome import Outcome
 
 Array = NDArray[np.float64]
@@ -49,6 +50,10 @@ class Result:
         """Stack frames, at least one."""
         stacked = {f.name: np.array([getattr(frame, f.name) for frame in frames]) for f in fields(Frame)}
         return cls(net, outcome, weight_in_water, case_text=case_text, **stacked)
+
+    def state(self, index: int = -1) -> State:
+        """Return the state at one frame, tensions included; the last by default. A warm start for statics."""
+        return State(float(self.time[index]), self.position[index], self.velocity[index], self.tension[index])
 
     def frame(self, index: int = -1) -> Frame:
         """Return one frame; the last by default."""

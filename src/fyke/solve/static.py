@@ -36,6 +36,8 @@ NEAR = 1e-3
 NEARER, LEAST_NEAR = 1e-3, 1e-8
 # Steps shorter than SHORT, so many in a row, are a stall.
 SHORT, SHORT_STEPS = 1e-2, 5
+# A warm start that is not there after so many iterations was none: the solve begins anew.
+WARM_STEPS = 12
 
 
 def solve_static(
@@ -50,17 +52,19 @@ def solve_static(
     """Find the static equilibrium of a net.
 
     tolerance: N, largest unbalanced force on a free knot; where the rounding of the coordinates alone makes more than
-    that, its size is the tolerance and the outcome says so. start: where to begin, the net as built by default.
-    How it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state.
+    that, its size is the tolerance and the outcome says so. start: where to begin, the net as built by default; with
+    tensions, as Result.state gives them for a net like this one, it is a warm start that takes a few iterations. How
+    it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state.
     """
     began = time.perf_counter()
-    s = Equilibrium(system, start or system.at_rest(), linear)
+    begin = start or system.at_rest()
+    s = Equilibrium(system, begin, linear)
     loose = loose_knots(system)
     if loose.size:
         name, message, advice = _floating(system, loose)
     else:
         try:
-            name, message, advice = _iterate(s, tolerance, max_iterations, on_progress)
+            name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
         except KeyboardInterrupt:
             name, message = "interrupted", f"stopped by hand after {s.iterations} iterations"
             advice = "the last shape is saved; run it again"
@@ -103,17 +107,20 @@ def _floating(system: System, loose: NDArray[np.int64]) -> Verdict:
     )
 
 
-def _iterate(s: Equilibrium, tolerance: float, limit: int, on_progress: Progress | None) -> Verdict:
-    """Far field, then near field, until the true residual is below tolerance."""
-    far, near, gap = Far(s), None, NEAR
-    begin = s.x.copy()
-    first, short = max(s.residual, tolerance), 0
+def _iterate(
+    s: Equilibrium, tolerance: float, limit: int, tension: Array | None, on_progress: Progress | None
+) -> Verdict:
+    """Far field, then near field, until the true residual is below tolerance; a warm start begins in the near one."""
+    begin, gap, short = s.x.copy(), NEAR, 0
+    first = max(s.residual, tolerance)
+    warm = tension is not None
+    far, near = Far(s), None if tension is None else Near.warm(s, tension)
     # The rounding is that of the shape found, which may be much larger than the start.
     while not s.residual <= max(tolerance, s.floor):
         if s.iterations >= limit:
             return _out_of_iterations(s)
         if near is None and far.near(gap):
-            near = Near(s, far)
+            near = Near.after(far)
         try:
             step = (near or far).step()
         except SingularMatrixError as error:
@@ -123,9 +130,10 @@ def _iterate(s: Equilibrium, tolerance: float, limit: int, on_progress: Progress
         short = short + 1 if step < SHORT else 0
         if short >= SHORT_STEPS and (near is None or gap <= LEAST_NEAR):
             return _stalled(s)
-        if short >= SHORT_STEPS:
+        if short >= SHORT_STEPS or (warm and s.iterations >= WARM_STEPS):
             # The near field jams when it begins too far off: once more from the start, with a longer far field.
-            gap, short = gap * NEARER, 0
+            gap = gap if warm else gap * NEARER
+            warm, short = False, 0
             s.begin_at(begin)
             far, near = Far(s), None
         if on_progress is not None:
