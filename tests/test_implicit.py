@@ -163,7 +163,7 @@ def test_step_matrix_against_differences(framed):
         data = np.empty(len(pattern.indices))
         along = np.where(taut, el.stiffness, 0.0)
         assemble_step(
-            v, u, el, t, length, tension, along, c0, c1, cm, mass,
+            u - v, el, t, length, tension, along, c0, c1, cm, mass,
             pattern.start, pattern.stride, pattern.diagonal, data,
         )  # fmt: skip
         return pattern.matrix(data).toarray()

@@ -1,7 +1,7 @@
-"""Bars at rest in a steady current: geometry, elastic law with slope, load of the water, stiffness.
+"""Bars in the water: geometry, elastic law with slope, load of the water, stiffness.
 
-The pieces of statics. The law is continued into the slack range because the interior-point method needs its slope
-there; the tension itself stays zero.
+The pieces of statics and of implicit dynamics. The law is continued into the slack range because their methods need its
+slope there; the tension itself stays zero.
 """
 
 from __future__ import annotations
@@ -42,18 +42,18 @@ def elastic(stretch, el, f, k):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def load_at_rest(u, el, t, length, out):  # type: ignore[no-untyped-def]
-    """Weight, buoyancy and water on every knot at rest into out (n, 3) N; u: (n, 3) m/s."""
+def water_load(rel, el, t, length, out):  # type: ignore[no-untyped-def]
+    """Weight, buoyancy and water on every knot into out (n, 3) N; rel: (n, 3) m/s, the water against the knots."""
     for i in range(out.shape[0]):
-        c = el.knot_drag[i] * np.sqrt(u[i, 0] ** 2 + u[i, 1] ** 2 + u[i, 2] ** 2)
+        c = el.knot_drag[i] * np.sqrt(rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2)
         for q in range(3):
-            out[i, q] = el.weight[i, q] + c * u[i, q]
+            out[i, q] = el.weight[i, q] + c * rel[i, q]
     for e in range(length.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
         f = bar_water_force(
-            0.5 * (u[a, 0] + u[b, 0]),
-            0.5 * (u[a, 1] + u[b, 1]),
-            0.5 * (u[a, 2] + u[b, 2]),
+            0.5 * (rel[a, 0] + rel[b, 0]),
+            0.5 * (rel[a, 1] + rel[b, 1]),
+            0.5 * (rel[a, 2] + rel[b, 2]),
             t[e, 0],
             t[e, 1],
             t[e, 2],
@@ -90,10 +90,11 @@ def largest_on_free(force, free):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def assemble(block, u, el, t, start, stride, data):  # type: ignore[no-untyped-def]
+def assemble(block, rel, el, t, start, stride, data):  # type: ignore[no-untyped-def]
     """Tangent -dF/dx on the pattern's data: stiffness less the tangent of the water's load.
 
-    block: (m, 3, 3) N/m, stiffness of every bar; start, stride: of solve.linear.Pattern.
+    block: (m, 3, 3) N/m, stiffness of every bar; rel: (n, 3) m/s, the water against the knots; start, stride: of
+    solve.linear.Pattern.
     """
     data[:] = 0.0
     drag = np.zeros((3, 3))
@@ -101,7 +102,7 @@ def assemble(block, u, el, t, start, stride, data):  # type: ignore[no-untyped-d
     for e in range(block.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
         for q in range(3):
-            w[q] = 0.5 * (u[a, q] + u[b, q])
+            w[q] = 0.5 * (rel[a, q] + rel[b, q])
         bar_water_tangent(w, t[e], el.normal_drag[e], el.tangential_drag[e], drag)
         aa, ba, ab, bb = start[e, 0], start[e, 1], start[e, 2], start[e, 3]
         sa, sb = stride[e, 0], stride[e, 1]

@@ -161,6 +161,33 @@ def _directions(frame: Frame, el: Elements) -> tuple[Array, Array]:
     return t, length
 
 
+def _viscous(el: Elements, length: Array, rate: Array) -> Array:
+    """Part of the tension that the twine's damping makes, (m,) N, at a rate of elongation (m,) m/s."""
+    f, slope = np.empty_like(length), np.empty_like(length)
+    elastic(length - el.rest_length, el, f, slope)
+    damped = np.maximum(f + el.damping_time * slope * rate, 0.0)
+    return np.where(length > el.rest_length, damped - f, 0.0)
+
+
+def _elastic_length(el: Elements, frame: Frame) -> Array:
+    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's tension.
+
+    An implicit method knows tensions better than the law does from its positions, which stretch stiff bars falsely.
+    """
+    t, length = _directions(frame, el)
+    rate = np.einsum("eq,eq->e", frame.velocity[el.knot_b] - frame.velocity[el.knot_a], t)
+    tension = np.maximum(frame.tension - _viscous(el, length, rate), 0.0)
+    row = el.law_first.astype(np.int64)
+    last = el.law_end.astype(np.int64) - 1
+    while np.any(further := (row < last) & (tension >= el.law_rows[np.minimum(row + 1, last), 1])):
+        row = np.where(further, row + 1, row)
+    strain, base, slope, coefficient, exponent = el.law_rows[row].T
+    # A row of a law is straight or a power, never both (netting.elastic).
+    straight = (tension - base) / np.where(slope > 0.0, slope, 1.0)
+    power = ((tension - base) / np.where(coefficient > 0.0, coefficient, 1.0)) ** (1.0 / exponent)
+    return np.asarray(el.rest_length * (1.0 + strain + np.where(coefficient > 0.0, power, straight)))
+
+
 def _powers(system: System, frame: Frame) -> tuple[float, float, float, float]:
     """Power (W) of current, drag, twine damping and turning added mass in one frame."""
     el, force, v = system.elements, frame.water_force, frame.velocity
@@ -168,9 +195,7 @@ def _powers(system: System, frame: Frame) -> tuple[float, float, float, float]:
     t, length = _directions(frame, el)
     va, vb = v[el.knot_a], v[el.knot_b]
     rate = np.einsum("eq,eq->e", vb - va, t)
-    f, slope = np.empty_like(length), np.empty_like(length)
-    elastic(length - el.rest_length, el, f, slope)
-    viscous = np.where(length > el.rest_length, frame.tension - f, 0.0)
+    viscous = _viscous(el, length, rate)
     turn = (vb - va - rate[:, None] * t) / np.maximum(length, TINY_LENGTH)[:, None]
     # 1/2 v.(dM/dt) v with M = m (I - t t^T) is -m (v.dt/dt)(v.t), at each end.
     turning = sum(np.einsum("eq,eq->e", w, turn) * np.einsum("eq,eq->e", w, t) for w in (va, vb))
@@ -188,7 +213,7 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
     powers = np.array([_powers(system, result.frame(k)) for k in range(len(result.time))])
     current, drag, twine, turning = np.trapezoid(powers, result.time, axis=0).tolist()
     kinetic = float(last.kinetic_energy - first.kinetic_energy)
-    stored = [elastic_energy(el, _directions(frame, el)[1]) for frame in (first, last)]
+    stored = [elastic_energy(el, _elastic_length(el, frame)) for frame in (first, last)]
     stretching = float(np.sum(stored[1] - stored[0]))
     potential = -float(np.sum(el.weight * (last.position - first.position)))
     return EnergyBudget(

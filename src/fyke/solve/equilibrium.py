@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free, load_at_rest
+from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free, water_load
 from ..system.elements import Elements
 from ..system.system import State, System
 from .linear import Factorizer, Pattern, Solve, factorizer
@@ -89,7 +89,7 @@ class Equilibrium:
         b, el = self.b, self.el
         bar_geometry(self.x, el, b.t, b.length)
         elastic(b.length - el.rest_length, el, b.f, b.k)
-        load_at_rest(self.u, el, b.t, b.length, b.load)
+        water_load(self.u, el, b.t, b.length, b.load)
         b.total[:] = b.load
         add_tension(np.maximum(b.f, 0.0), el, b.t, b.total)
         worst, where = largest_on_free(b.total, el.free)

@@ -16,14 +16,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import bar_geometry, elastic
+from ..forces.bars import bar_geometry, elastic, water_load
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.total import total_force, work_arrays
 from ..system.system import State, System
 from .central_path import bar_changes, second_order
 from .equilibrium import typical_tension
 from .linear import Pattern, SingularMatrixError, Solve, factorizer
-from .smooth import assemble_step, moving_load, smooth_bars, step_right_side
+from .smooth import assemble_step, smooth_bars, step_right_side
 from .stepper import Count, Status, fluid_velocity
 
 Array = NDArray[np.float64]
@@ -115,6 +115,7 @@ class ImplicitRun:
         self.linear_solver = self.linear.name
         self.x, self.v, self.time = state.position.copy(), state.velocity.copy(), state.time
         self.u = fluid_velocity(system, state)
+        self.rel = self.u - self.v
         z = np.zeros
         self.t, self.load, self.total, self.mass = z((m, 3)), z((n, 3)), z((n, 3)), z((n, 6))
         self.length, self.f, self.k, self.damp = z(m), z(m), z(m), z(m)
@@ -123,7 +124,7 @@ class ImplicitRun:
         self.right, self.data = z(3 * len(self.pattern.free)), z(len(self.pattern.indices))
         self.xn, self.vn, self.an, self.Tn, self.wn = self.x, self.v, z((n, 3)), z(m), z(m)
         self.a = self._acceleration()
-        moving_load(self.v, self.u, el, self.t, self.length, self.load)
+        water_load(self.u - self.v, el, self.t, self.length, self.load)
         self.tension_scale = max(typical_tension(el, self.load), TINY)
         self.mu = (SMOOTHING * self.tension_scale) ** 2
         self.T = 0.5 * (self.f + np.sqrt(self.f * self.f + 4.0 * self.mu))
@@ -260,7 +261,8 @@ class ImplicitRun:
             self.f += self.damp * rate
         mass_matrices(self.xn, el, self.mass)
         self.count.evaluations += 1
-        moving_load(self.vn, self.u, el, self.t, self.length, self.load)
+        self.rel = self.u - self.vn
+        water_load(self.rel, el, self.t, self.length, self.load)
         phi, r = smooth_bars(self.Tn, self.wn, self.f, self.mu, self.p, self.r, self.c)
         return float(phi), float(r)
 
@@ -272,7 +274,7 @@ class ImplicitRun:
             self.k += self.damp * (c1 / c0)
         np.multiply(self.p, self.k, out=self.along)
         assemble_step(
-            self.vn, self.u, self.el, self.t, self.length, self.Tn, self.along, 1.0, c1 / c0, cm, self.mass,
+            self.rel, self.el, self.t, self.length, self.Tn, self.along, 1.0, c1 / c0, cm, self.mass,
             p.start, p.stride, p.diagonal, self.data,
         )  # fmt: skip
         self.count.factorizations += 1

@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from ..forces.compiled import OPTIONS
-from ..forces.drag import bar_water_force, bar_water_tangent
+from ..forces.drag import bar_water_tangent
 
 
 @njit(**OPTIONS)
@@ -33,36 +33,11 @@ def smooth_bars(T, w, g, mu, p, r, c):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def moving_load(v, u, el, t, length, out):  # type: ignore[no-untyped-def]
-    """Weight, buoyancy and water on every moving knot into out (n, 3) N; v, u: (n, 3) m/s."""
-    for i in range(out.shape[0]):
-        w0, w1, w2 = u[i, 0] - v[i, 0], u[i, 1] - v[i, 1], u[i, 2] - v[i, 2]
-        c = el.knot_drag[i] * np.sqrt(w0 * w0 + w1 * w1 + w2 * w2)
-        out[i, 0] = el.weight[i, 0] + c * w0
-        out[i, 1] = el.weight[i, 1] + c * w1
-        out[i, 2] = el.weight[i, 2] + c * w2
-    for e in range(length.shape[0]):
-        a, b = el.knot_a[e], el.knot_b[e]
-        f = bar_water_force(
-            0.5 * (u[a, 0] - v[a, 0] + u[b, 0] - v[b, 0]),
-            0.5 * (u[a, 1] - v[a, 1] + u[b, 1] - v[b, 1]),
-            0.5 * (u[a, 2] - v[a, 2] + u[b, 2] - v[b, 2]),
-            t[e, 0],
-            t[e, 1],
-            t[e, 2],
-            el.normal_drag[e] * length[e],
-            el.tangential_drag[e] * length[e],
-        )
-        for q in range(3):
-            out[a, q] += f[q]
-            out[b, q] += f[q]
-
-
-@njit(**OPTIONS)
-def assemble_step(v, u, el, t, length, T, along, c0, c1, cm, mass, start, stride, diagonal, data):  # type: ignore[no-untyped-def]
+def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride, diagonal, data):  # type: ignore[no-untyped-def]
     """Matrix cm M + c1 C + c0 K of one step on the pattern's data; K = -dF/dx, C = -dF/dv.
 
-    along: (m,) N/m, stiffness of a bar along itself, damping included; T: (m,) N; mass: (n, 6) kg.
+    rel: (n, 3) m/s, the water against the knots; along: (m,) N/m, stiffness of a bar along itself, damping included;
+    T: (m,) N; mass: (n, 6) kg.
     """
     data[:] = 0.0
     turn = np.zeros((3, 3))
@@ -70,7 +45,7 @@ def assemble_step(v, u, el, t, length, T, along, c0, c1, cm, mass, start, stride
     for e in range(along.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
         for q in range(3):
-            w[q] = 0.5 * (u[a, q] - v[a, q] + u[b, q] - v[b, q])
+            w[q] = 0.5 * (rel[a, q] + rel[b, q])
         t0 = t[e]
         bar_water_tangent(w, t0, el.normal_drag[e], el.tangential_drag[e], turn)
         s = w[0] * t0[0] + w[1] * t0[1] + w[2] * t0[2]
@@ -98,14 +73,14 @@ def assemble_step(v, u, el, t, length, T, along, c0, c1, cm, mass, start, stride
                     data[ab + q * sb + p] += c - k - d
                 if bb >= 0:
                     data[bb + q * sb + p] += c + k - d
-    _add_knots(v, u, el, c1, cm, mass, diagonal, data)
+    _add_knots(rel, el, c1, cm, mass, diagonal, data)
 
 
 @njit(**OPTIONS)
-def _add_knots(v, u, el, c1, cm, mass, diagonal, data):  # type: ignore[no-untyped-def]
+def _add_knots(rel, el, c1, cm, mass, diagonal, data):  # type: ignore[no-untyped-def]
     """Add mass and drag of the knots to their own blocks."""
     block = np.zeros((3, 3))
-    for i in range(v.shape[0]):
+    for i in range(rel.shape[0]):
         place, step = diagonal[i, 0], diagonal[i, 1]
         if place < 0:
             continue
@@ -114,7 +89,7 @@ def _add_knots(v, u, el, c1, cm, mass, diagonal, data):  # type: ignore[no-untyp
         block[0, 1] = block[1, 0] = m[3]
         block[0, 2] = block[2, 0] = m[4]
         block[1, 2] = block[2, 1] = m[5]
-        w = (u[i, 0] - v[i, 0], u[i, 1] - v[i, 1], u[i, 2] - v[i, 2])
+        w = rel[i]
         size = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
         inverse = 1.0 / size if size > 0.0 else 0.0
         c = c1 * el.knot_drag[i]
