@@ -21,7 +21,7 @@ from numba import njit
 
 import fyke
 from fyke.forces.total import total_force, work_arrays
-from fyke.solve.linear import Pattern, Rslab
+from fyke.solve.linear import Pattern, factorizer
 from fyke.solve.symplectic import leap
 
 HERE = Path(__file__).parent
@@ -58,10 +58,13 @@ def best(work: Callable[[], object], repeats: int = 7) -> float:
 class TimedFactorizer:
     """The linear solver of the package, with the bare time of its factorizations added up."""
 
-    name = Rslab.name
-
     def __init__(self, pattern: Pattern) -> None:
-        self._solver, self.seconds = Rslab(pattern), 0.0
+        self._solver, self.seconds = factorizer(pattern), 0.0
+        self.name = self._solver.name
+
+    def renew(self) -> None:
+        """Pass on."""
+        self._solver.renew()
 
     def factor(self, data):  # type: ignore[no-untyped-def]
         """Factorize and keep the time."""

@@ -45,13 +45,18 @@ def run(
     ] = None,
     figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the figures.")] = True,
     overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace a result that is there.")] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Go on with a dynamic run that was stopped.")
+    ] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
 ) -> None:
     """Solve a case and write its result, tables and figures."""
     from .run import Wishes, run_case
 
-    wishes = Wishes(output=output, figures=figures, overwrite=overwrite, quiet=quiet, json=json)
+    wishes = Wishes(
+        output=output, figures=figures, overwrite=overwrite, resume=resume, quiet=quiet, json=json
+    )
     raise typer.Exit(run_case(case, wishes))
 
 

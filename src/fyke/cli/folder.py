@@ -5,9 +5,14 @@ from __future__ import annotations
 import tempfile
 from pathlib import Path
 
+from ..case import Case
 from ..case.errors import CaseError, Problem
+from ..forces.frame import Frame
+from ..results import CheckpointError, ResultError, frames_of, load, load_checkpoint
+from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
+CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
 PICTURES = (
     "initial_position",
@@ -44,9 +49,26 @@ def claim(folder: Path, *, overwrite: bool) -> None:
 
 def _clear(folder: Path) -> None:
     pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
-    for name in (RESULT, SUMMARY, KNOTS, BARS, *pictures):
+    for name in (RESULT, SUMMARY, KNOTS, BARS, CHECKPOINT, *pictures):
         (folder / name).unlink(missing_ok=True)
 
 
 def _refusal(folder: Path, found: str, cure: str) -> CaseError:
     return CaseError([Problem(f"output folder {folder}", found, _ALLOWED, cure)])
+
+
+def stopped(folder: Path, case: Case) -> tuple[Checkpoint, list[Frame]]:
+    """Return the checkpoint of the run that was stopped in a folder, and its outputs so far.
+
+    Raises CaseError where there is none of this case, or the case is static.
+    """
+    where = f"--resume in {folder}"
+    if case.solve.kind != "dynamic":
+        raise CaseError([Problem(where, "a static case", "a dynamic case", "leave out --resume")])
+    try:
+        checkpoint = load_checkpoint(folder / CHECKPOINT, case_sha256=case.sha256)
+        return checkpoint, frames_of(load(folder / RESULT), checkpoint)
+    except (CheckpointError, ResultError) as error:
+        allowed = "the folder of a run of this very case that was stopped"
+        cure = "run it from its beginning, with --overwrite if a result is there"
+        raise CaseError([Problem(where, str(error), allowed, cure)]) from None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from rich.text import Text
 
 from ..case import Case, CaseError, Problem, load_case
 from ..forces.evaluate import evaluate
+from ..forces.frame import Frame
 from ..results import (
     Comparison,
     MeasurementError,
@@ -19,16 +21,18 @@ from ..results import (
     compare,
     load,
     save,
+    save_checkpoint,
     summary,
     write_summary,
     write_tables,
 )
+from ..solve.dynamic import Checkpoint
 from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.system import System
-from .folder import BARS, KNOTS, RESULT, SUMMARY, claim
+from .folder import BARS, CHECKPOINT, KNOTS, RESULT, SUMMARY, claim, stopped
 from .progress import progress_bar
 from .show import (
     DONE,
@@ -44,6 +48,8 @@ from .show import (
     vector,
 )
 
+Stopped = tuple[Checkpoint, list[Frame]]
+
 
 @dataclass(frozen=True)
 class Wishes:
@@ -52,6 +58,7 @@ class Wishes:
     output: Path | None = None
     figures: bool = True
     overwrite: bool = False
+    resume: bool = False
     quiet: bool = False
     json: bool = False
 
@@ -72,8 +79,10 @@ def run_case(file: Path, wishes: Wishes) -> int:
         if case.positions_file:
             # A fault of this file is told before the solve, and before an old result is taken away.
             compare(_as_built(case, system), case.positions_file)
-        claim(folder, overwrite=wishes.overwrite)
-        return _run(case, system, folder, wishes)
+        resume = stopped(folder, case) if wishes.resume else None
+        if resume is None:
+            claim(folder, overwrite=wishes.overwrite)
+        return _run(case, system, folder, wishes, resume)
     except (CaseError, MeasurementError) as error:
         print_problems(error.problems)
     except OSError as error:
@@ -82,8 +91,8 @@ def run_case(file: Path, wishes: Wishes) -> int:
     return WRONG_INPUT
 
 
-def _run(case: Case, system: System, folder: Path, wishes: Wishes) -> int:
-    result = _solve(case, system, folder / RESULT, wishes)
+def _run(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None) -> int:
+    result = _solve(case, system, folder, wishes, resume)
     comparison = compare(result, case.positions_file) if case.positions_file else None
     figures = _figures_of(case, system, result, comparison)
     write_tables(result, folder)
@@ -99,21 +108,29 @@ def _run(case: Case, system: System, folder: Path, wishes: Wishes) -> int:
     return NOT_CONVERGED
 
 
-def _solve(case: Case, system: System, file: Path, wishes: Wishes) -> Result:
-    """Solve a case, with every output on disk as it comes, and leave the whole result in the file."""
-    times, weight = planned_frames(case), system.weight_in_water
+def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None) -> Result:
+    """Solve a case, with every output and a checkpoint on disk as it comes, and leave the whole result in the file."""
+    file, times, weight = folder / RESULT, planned_frames(case), system.weight_in_water
+    keep = partial(save_checkpoint, folder / CHECKPOINT, case_sha256=case.sha256)
+    frames = resume[1] if resume else ()
     with (
-        Recorder(file, system.net, times=times, weight_in_water=weight, case_text=case.text) as recorder,
+        Recorder(
+            file, system.net, times=times, weight_in_water=weight, case_text=case.text, frames=frames
+        ) as recorder,
         progress_bar(stderr(), shown=wishes.talk) as report,
     ):
         try:
-            result = solve_case(system, case, on_frame=recorder.append, on_progress=report)
+            result = solve_case(
+                system, case, on_frame=recorder.append, on_progress=report, on_checkpoint=keep, resume=resume
+            )
         except KeyboardInterrupt:
             recorder.close()
             result = load(file) if file.is_file() else _as_built(case, system)
             save(result, file)
         else:
             recorder.finish(result)
+    if result.outcome.name != "interrupted":
+        (folder / CHECKPOINT).unlink(missing_ok=True)
     return result
 
 

@@ -16,8 +16,8 @@ THINNEST = 0.12  # of the longer side: a straight row of bars still has axes to 
 
 def frame(*points: Array) -> Array:
     """Return lower left and upper right (2, 2) of a frame with a margin around all points (n, 2)."""
-    low = np.min([p.min(axis=0) for p in points], axis=0)
-    high = np.max([p.max(axis=0) for p in points], axis=0)
+    low = np.concatenate(points).min(axis=0)
+    high = np.concatenate(points).max(axis=0)
     longest = float((high - low).max()) or 1.0
     half = np.maximum(high - low + 0.04 * longest, THINNEST * longest) / 2.0
     return np.array([(low + high) / 2.0 - half, (low + high) / 2.0 + half])

@@ -67,8 +67,8 @@ def view_of(corners: Array) -> View:
 
 def box(*points: Array) -> Array:
     """Return lower and upper corner (2, 3) of a box around all points (n, 3) m, nowhere thinner than THINNEST."""
-    low = np.min([p.min(axis=0) for p in points], axis=0)
-    high = np.max([p.max(axis=0) for p in points], axis=0)
+    low = np.concatenate(points).min(axis=0)
+    high = np.concatenate(points).max(axis=0)
     longest = float((high - low).max()) or 1.0
     half = np.maximum((high - low) * 1.02, THINNEST * longest) / 2.0
     middle = (low + high) / 2.0

@@ -1,6 +1,7 @@
 """Results on disk and the figures derived from them."""
 
 from .audit import Audit, EnergyBudget, audit
+from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkpoint
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .recorder import Recorder
@@ -9,6 +10,7 @@ from .tables import write_summary, write_tables
 
 __all__ = [
     "Audit",
+    "CheckpointError",
     "Comparison",
     "EnergyBudget",
     "MeasurementError",
@@ -16,8 +18,11 @@ __all__ = [
     "ResultError",
     "audit",
     "compare",
+    "frames_of",
     "load",
+    "load_checkpoint",
     "save",
+    "save_checkpoint",
     "summary",
     "write_summary",
     "write_tables",

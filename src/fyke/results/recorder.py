@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from io import FileIO
 from pathlib import Path
 from types import TracebackType
@@ -45,11 +46,19 @@ class Recorder:
     """
 
     def __init__(
-        self, path: str | Path, net: Net, *, times: int, weight_in_water: float, case_text: str = ""
+        self,
+        path: str | Path,
+        net: Net,
+        *,
+        times: int,
+        weight_in_water: float,
+        case_text: str = "",
+        frames: Sequence[Frame] = (),
     ) -> None:
         """Take room for `times` outputs, or the first of them; more than that may come.
 
-        weight_in_water: weight less buoyancy of the whole net (N). OSError where the file cannot be written,
+        weight_in_water: weight less buoyancy of the whole net (N); frames: outputs of a run that is taken up again,
+        which are in the file from the moment it is in place. OSError where the file cannot be written,
         ValueError where the net holds a number that is not finite.
         """
         self._path = Path(path)
@@ -60,7 +69,11 @@ class Recorder:
         self._in_place = False
         self._offsets: dict[str, int] = {}
         frame_bytes = FLOAT.itemsize * sum(int(np.prod(frame_shape(field, net))) for field in FRAME_FIELDS)
-        self._make_room(max(1, min(times, FIRST_ROOM // frame_bytes)))
+        self._make_room(max(1, len(frames), min(times, FIRST_ROOM // frame_bytes)))
+        for frame in frames:
+            self._write(frame)
+        if frames:
+            self._put_in_place()
 
     def __enter__(self) -> Self:
         return self
@@ -76,6 +89,11 @@ class Recorder:
         ValueError for a shape that is not the net's and, with variable and knot or bar, for a number that is
         not finite; the file stays as it was.
         """
+        self._write(frame)
+        if not self._in_place:
+            self._put_in_place()
+
+    def _write(self, frame: Frame) -> None:
         net = self._content.net
         values = {field.name: np.asarray(getattr(frame, field.name), dtype=FLOAT) for field in FRAME_FIELDS}
         for field in FRAME_FIELDS:
@@ -90,8 +108,6 @@ class Recorder:
         one = {name: value[np.newaxis] for name, value in values.items()}
         write_frames(self._open_file(), self._offsets, self._count, one)
         self._count += 1
-        if not self._in_place:
-            self._put_in_place()
 
     def finish(self, result: Result) -> None:
         """Replace the file by the whole result: with its outcome and without room to spare."""

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
@@ -14,9 +15,10 @@ from ..system.system import State, System
 from .implicit import Implicit
 from .outcome import Outcome, OutcomeName
 from .result import Result
-from .stepper import Run, Status, Stepper
+from .stepper import Count, Memory, Run, Status, Stepper
 from .strain import strain_warnings
 
+Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
 
 
@@ -46,6 +48,18 @@ class Settle:
         return " and ".join(parts)
 
 
+@dataclass(frozen=True)
+class Checkpoint:
+    """Where a run stands after an output.
+
+    frames: outputs so far; memory: of the stepper; count: its steps so far.
+    """
+
+    frames: int
+    memory: Memory
+    count: Count
+
+
 def output_times(duration: float, every: float | None) -> np.ndarray:
     """Times (s) of the frames: 0, every, 2 every .. and the end; a hundred intervals by default."""
     interval = every or duration / 100.0
@@ -67,11 +81,15 @@ def simulate(
     start: State | None = None,
     on_frame: Callable[[Frame], None] | None = None,
     on_progress: Progress | None = None,
+    on_checkpoint: Callable[[Checkpoint], None] | None = None,
+    resume: tuple[Checkpoint, Sequence[Frame]] | None = None,
 ) -> Result:
     """Let a net move in the water from a state at rest (the net as built) or from start.
 
     duration, every: s, every is the interval of the frames; settle: stop as soon as the net is at rest; on_frame is
     handed every frame as it comes. Ctrl-C ends the run with the frames so far and the outcome "interrupted".
+    on_checkpoint gets a checkpoint after every frame; resume: such a checkpoint of a run with the same arguments and
+    the frames up to it, from which the run goes on with the same bits.
     """
     began = time.perf_counter()
     method: Stepper = stepper or Implicit()
@@ -80,12 +98,31 @@ def simulate(
     run = method.start(system, state)
     warnings = _step_warnings(system, state, method)
     frames: list[Frame] = []
+    times = state.time + output_times(duration, every)
+    if resume is not None:
+        frames += resume[1]
+        run.restore(resume[0].memory)
+        run.count = replace(resume[0].count)
+
+    def keep(frame: Frame) -> None:
+        frames.append(frame)
+        if on_frame is not None:
+            on_frame(frame)
+        if on_checkpoint is not None:
+            on_checkpoint(Checkpoint(len(frames), run.memory(), replace(run.count)))
+
     try:
-        verdict = _loop(system, run, duration, every, settle, frames, on_frame, on_progress)
+        verdict = _loop(system, run, times[len(frames) :], settle, keep, on_progress)
     except KeyboardInterrupt:
         if not frames or run.state.time > frames[-1].time:
-            _keep(frames, evaluate(system, run.state), on_frame)
-        verdict = "interrupted", f"stopped by hand at {run.state.time:.4g} s", "the frames so far are saved"
+            frames.append(evaluate(system, run.state))
+            if on_frame is not None:
+                on_frame(frames[-1])
+        verdict = (
+            "interrupted",
+            f"stopped by hand at {run.state.time:.4g} s",
+            "the frames so far are saved; fyke run --resume goes on from there",
+        )
     name, message, advice = verdict
     outcome = Outcome(
         name=name,
@@ -121,51 +158,44 @@ Verdict = tuple[OutcomeName, str, str]
 def _loop(
     system: System,
     run: Run,
-    duration: float,
-    every: float | None,
+    times: Array,
     settle: Settle | None,
-    frames: list[Frame],
-    on_frame: Callable[[Frame], None] | None,
+    keep: Callable[[Frame], None],
     on_progress: Progress | None,
 ) -> Verdict:
     """From output time to output time until the end, rest or a fault."""
-    begin = run.state.time
-    massless = np.flatnonzero((system.elements.free > 0.0) & (system.elements.knot_mass == 0.0))
+    begin, massless = (
+        run.state.time,
+        np.flatnonzero((system.elements.free > 0.0) & (system.elements.knot_mass == 0.0)),
+    )
     if massless.size:
-        _keep(frames, evaluate(system, run.state), on_frame)
+        keep(evaluate(system, run.state))
         return (
             "singular",
             f"knot {system.net.labels[massless[0]]} is free and has no mass",
             "give its twine a density or the knot a diameter and a density",
         )
-    _keep(frames, evaluate(system, run.state), on_frame)
-    for offset in output_times(duration, every)[1:]:
-        while run.state.time < begin + offset:
-            status = run.advance(begin + float(offset))
+    frame = evaluate(system, run.state)
+    for end in times.tolist():
+        while run.state.time < end:
+            status = run.advance(end)
             if status != "ok":
                 return _fault(system, run, status)
             if on_progress is not None:
-                done = (run.state.time - begin) / duration
-                on_progress(done, f"t = {run.state.time:.4g} s, step {run.step:.2e} s")
+                done = (run.state.time - begin) / (times[-1] - begin)
+                on_progress(float(done), f"t = {run.state.time:.4g} s, step {run.step:.2e} s")
         frame = evaluate(system, run.state)
-        _keep(frames, frame, on_frame)
-        if settle is not None and settle.reached(frame):
+        keep(frame)
+        if settle is not None and end > begin and settle.reached(frame):
             return "converged", f"at rest after {frame.time:.4g} s: {settle.describe()}", ""
     if settle is None:
-        return "completed", f"{duration:g} s simulated", ""
-    last = frames[-1]
+        return "completed", f"{frame.time:g} s simulated", ""
     return (
         "not_settled",
-        f"not at rest after {last.time:.4g} s: unbalanced force {last.unbalanced_force:.2e} N, kinetic energy "
-        f"{last.kinetic_energy:.2e} J",
+        f"not at rest after {frame.time:.4g} s: unbalanced force {frame.unbalanced_force:.2e} N, kinetic energy "
+        f"{frame.kinetic_energy:.2e} J",
         "let it run longer, or give the twine a damping_time, without which taut bars ring",
     )
-
-
-def _keep(frames: list[Frame], frame: Frame, on_frame: Callable[[Frame], None] | None) -> None:
-    frames.append(frame)
-    if on_frame is not None:
-        on_frame(frame)
 
 
 def _fault(system: System, run: Run, status: Status) -> Verdict:

@@ -20,7 +20,7 @@ ROUNDING = 8.0
 
 def typical_tension(el: Elements, load: Array) -> float:
     """All loads (n, 3) N together over the bars that end on a held knot, or over one bar when there is none; N."""
-    held = np.count_nonzero((el.free[el.knot_a] == 0.0) | (el.free[el.knot_b] == 0.0))
+    held = int(np.count_nonzero((el.free[el.knot_a] == 0.0) | (el.free[el.knot_b] == 0.0)))
     return float(np.linalg.norm(load, axis=1).sum() / max(held, 1))
 
 

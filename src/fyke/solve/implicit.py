@@ -24,7 +24,7 @@ from .central_path import bar_changes, second_order
 from .equilibrium import typical_tension
 from .linear import Pattern, SingularMatrixError, Solve, factorizer
 from .smooth import assemble_step, smooth_bars, step_right_side
-from .stepper import Count, Status, fluid_velocity
+from .stepper import Count, Memory, Status, fluid_velocity
 
 Array = NDArray[np.float64]
 
@@ -172,6 +172,8 @@ class ImplicitRun:
         """Cubic Hermite interpolation of the last step, third order in the step like its error; linear for tensions."""
         t0, x0, v0, tension0 = self.before
         h = self.time - t0
+        if h == 0.0:
+            return State(time, self.x, self.v)
         s = (time - t0) / h
         x = (1 + 2 * s) * (1 - s) ** 2 * x0 + s * s * (3 - 2 * s) * self.x
         x += s * (1 - s) ** 2 * h * v0 - s * s * (1 - s) * h * self.v
@@ -216,6 +218,8 @@ class ImplicitRun:
 
     def _newton(self, h: float) -> bool:
         """Find a, T, w of a step h from the last ones; False when Newton does not get there."""
+        # A step depends on the state alone, so that a run may be taken up again at any.
+        self.linear.renew()
         el, c0, c1 = self.el, self.scheme.beta * h * h, self.scheme.gamma * h
         self.an[:], self.Tn[:], self.wn[:] = self.a, self.T, self.w
         x0 = self.x + h * self.v + h * h * (0.5 - self.scheme.beta) * self.a
@@ -301,3 +305,24 @@ class ImplicitRun:
         return float(
             bar_changes(self.dx, self.along, self.k, r, self.c, el, self.t, self.de, self.dT, self.dw)
         )
+
+    def memory(self) -> Memory:
+        """Return what the next steps depend on, and the last step, in which outputs may still lie."""
+        return {
+            "output": np.array(self.state.time),
+            "time": np.array([self.before[0], self.time, self.step]),
+            "position": np.array([self.before[1], self.x]),
+            "velocity": np.array([self.before[2], self.v]),
+            "tension_before": self.before[3],
+            "acceleration": self.a.copy(),
+            "tension": self.T.copy(),
+            "slack": self.w.copy(),
+        }
+
+    def restore(self, memory: Memory) -> None:
+        """Go on from there."""
+        before, self.time, self.step = (float(value) for value in memory["time"])
+        self.before = (before, memory["position"][0], memory["velocity"][0], memory["tension_before"])
+        self.x, self.v = memory["position"][1], memory["velocity"][1]
+        self.a, self.T, self.w = (memory[name].copy() for name in ("acceleration", "tension", "slack"))
+        self.state = self._between(float(memory["output"]))

@@ -94,6 +94,9 @@ class Factorizer(Protocol):
 
     name: str
 
+    def renew(self) -> None:
+        """Keep nothing of the matrices so far, so that what follows does not depend on them."""
+
     def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""
 
@@ -112,6 +115,9 @@ class Rslab:
 
         self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="lu")
 
+    def renew(self) -> None:
+        """Nothing is kept but the symbolic analysis."""
+
     def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""
         try:
@@ -123,7 +129,7 @@ class Rslab:
 
 
 class RslabSmall:
-    """RSLAB's KLU for small systems: ordering and pivots of the first matrix are kept, which halves the time.
+    """RSLAB's KLU for small systems: the pivots of a matrix are kept for the next, which halves the time.
 
     The first solution with kept pivots is checked, and computed again with new ones when its residual is too large. The
     solve of one matrix is good until the next is factorized.
@@ -132,8 +138,15 @@ class RslabSmall:
     name = "rslab KLU"
 
     def __init__(self, pattern: Pattern) -> None:
+        import rslab
+
         self._pattern = pattern
+        self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="klu")
         self._handle: Any = None
+
+    def renew(self) -> None:
+        """Choose new pivots at the next matrix."""
+        self._handle = None
 
     def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""
@@ -147,7 +160,7 @@ class RslabSmall:
                 checked = True
                 # Written so that a NaN fails it too.
                 if not np.abs(matrix @ x - right).max() <= KEPT_PIVOTS * np.abs(right).max():
-                    self._renew(matrix)
+                    self._choose_pivots(matrix)
                     x = self._handle.solve(right)
             return x
 
@@ -162,14 +175,12 @@ class RslabSmall:
                 pass
             else:
                 return True
-        self._renew(matrix)
+        self._choose_pivots(matrix)
         return False
 
-    def _renew(self, matrix: sp.csc_matrix) -> None:
-        import rslab
-
+    def _choose_pivots(self, matrix: sp.csc_matrix) -> None:
         try:
-            self._handle = rslab.klu(matrix)
+            self._handle = self._symbolic.factor(matrix.data)
         except _FAULTS as error:
             raise SingularMatrixError(str(error)) from error
 
@@ -181,6 +192,9 @@ class SuperLU:
 
     def __init__(self, pattern: Pattern) -> None:
         self._pattern = pattern
+
+    def renew(self) -> None:
+        """Nothing is kept."""
 
     def factor(self, data: Array) -> Solve:
         """Return the solve of a matrix with this data; raises SingularMatrixError."""

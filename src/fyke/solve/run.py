@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from ..case.schema import Case, DynamicSolve
 from ..forces.compiled import is_compiled
 from ..forces.frame import Frame
 from ..system.system import System
 from .cone import cone_changes
-from .dynamic import Settle, output_times, simulate
+from .dynamic import Checkpoint, Settle, output_times, simulate
 from .implicit import Implicit, Newmark
 from .result import Result
 from .smooth import assemble_step
@@ -63,8 +63,14 @@ def solve_case(
     *,
     on_frame: Callable[[Frame], None] | None = None,
     on_progress: Progress | None = None,
+    on_checkpoint: Callable[[Checkpoint], None] | None = None,
+    resume: tuple[Checkpoint, Sequence[Frame]] | None = None,
 ) -> Result:
-    """Do what the case's [solve] asks; on_frame gets every frame as it comes, on_progress a fraction and a text."""
+    """Do what the case's [solve] asks.
+
+    on_frame gets every frame as it comes, on_progress a fraction and a text; on_checkpoint and resume are those of
+    simulate and for dynamic cases only.
+    """
     chosen = case.solve
     if not isinstance(chosen, DynamicSolve):
         result = solve_static(system, tolerance=chosen.tolerance, on_progress=on_progress)
@@ -80,4 +86,6 @@ def solve_case(
         settle=settle if settle != Settle() else None,
         on_frame=on_frame,
         on_progress=on_progress,
+        on_checkpoint=on_checkpoint,
+        resume=resume,
     )

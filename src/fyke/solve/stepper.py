@@ -26,6 +26,10 @@ class Count:
     factorizations: int = 0
 
 
+# What a run must keep to be taken up again, by name.
+Memory = dict[str, Array]
+
+
 class Run(Protocol):
     """One stepper at work on one system."""
 
@@ -39,6 +43,12 @@ class Run(Protocol):
 
     def advance(self, end: float) -> Status:
         """Go on towards the time end (s), as far as one call is worth; state is left untouched on failure."""
+
+    def memory(self) -> Memory:
+        """Return all that the steps to come depend on, besides system and options."""
+
+    def restore(self, memory: Memory) -> None:
+        """Go on from what memory gave: the same bits as without a stop."""
 
 
 class Stepper(Protocol):

@@ -22,7 +22,7 @@ from ..forces.compiled import OPTIONS
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.total import TINY_LENGTH, total_force, work_arrays
 from ..system.system import State, System
-from .stepper import Count, Status, fluid_velocity, highest_frequency
+from .stepper import Count, Memory, Status, fluid_velocity, highest_frequency
 
 Array = NDArray[np.float64]
 
@@ -151,3 +151,12 @@ class SymplecticRun:
         self.count.steps += steps
         self.state = State(end if steps == wanted else old.time + steps * h, x, v)
         return "ok"
+
+    def memory(self) -> Memory:
+        """Return what the next steps depend on."""
+        s = self.state
+        return {"time": np.array(s.time), "position": s.position, "velocity": s.velocity}
+
+    def restore(self, memory: Memory) -> None:
+        """Go on from there."""
+        self.state = State(float(memory["time"]), memory["position"], memory["velocity"])

@@ -21,7 +21,7 @@ from ..forces.compiled import OPTIONS
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.total import total_force, work_arrays
 from ..system.system import State, System
-from .stepper import Count, Status, fluid_velocity, highest_frequency
+from .stepper import Count, Memory, Status, fluid_velocity, highest_frequency
 
 Array = NDArray[np.float64]
 
@@ -260,3 +260,18 @@ class VernerRun:
         self.step = float(clock[2])
         self.state = State(float(clock[0]), x, v)
         return "ok"
+
+    def memory(self) -> Memory:
+        """Return what the next steps depend on."""
+        s = self.state
+        return {
+            "time": np.array(s.time),
+            "position": s.position,
+            "velocity": s.velocity,
+            "step": np.array(self.step),
+        }
+
+    def restore(self, memory: Memory) -> None:
+        """Go on from there."""
+        self.state = State(float(memory["time"]), memory["position"], memory["velocity"])
+        self.step = float(memory["step"])
