@@ -279,6 +279,14 @@ def test_schema_is_json():
     assert schema["type"] == "object" and schema["additionalProperties"] is False
 
 
+def test_a_reader_that_goes_away_is_no_fault(case, tmp_path):
+    """`fyke run ... --json | head -c 1`: the files are there and nothing is said."""
+    command = f"{sys.executable} -m fyke run {case} -o {tmp_path / 'out'} --json --no-figures | head -c 1"
+    done = subprocess.run(["bash", "-c", command], capture_output=True, text=True, check=False)
+    assert done.stdout == "{" and done.stderr == ""
+    assert (tmp_path / "out" / "bars.csv").exists()
+
+
 def test_cite_names_the_sources_of_what_is_used(case):
     static = " ".join(fyke("cite", case).stdout.split())
     assert "Bessonneau & Marichal 1998" in static and "Mehrotra" in static and "material PA" not in static

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -85,6 +87,10 @@ def run_case(file: Path, wishes: Wishes) -> int:
         return _run(case, system, folder, wishes, resume)
     except (CaseError, MeasurementError) as error:
         print_problems(error.problems)
+    except BrokenPipeError:
+        # Who read the output has gone, as `head` does; the files are written. Python would complain again at its end.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
     except OSError as error:
         found, cure = error.strerror or str(error), "free the disk, or choose another folder with -o DIR"
         print_problems([Problem(f"output folder {folder}", found, "a folder that can be written", cure)])
