@@ -67,7 +67,7 @@ class TimedFactorizer:
         """Pass on."""
         self._solver.renew()
 
-    def factor(self, data):  # type: ignore[no-untyped-def]
+    def factor(self, data):
         """Factorize and keep the time."""
         began = time.perf_counter()
         solve = self._solver.factor(data)
@@ -120,7 +120,7 @@ def large_static() -> list[Row]:
 
 
 @njit
-def many_forces(count, x, v, u, el, rel, g, out):  # type: ignore[no-untyped-def]
+def many_forces(count, x, v, u, el, rel, g, out):
     """Call the force evaluation so many times without going back to Python."""
     for _ in range(count):
         total_force(x, v, u, el, rel, g, out)

@@ -16,7 +16,7 @@ from .total import TINY_LENGTH
 
 
 @njit(**OPTIONS)
-def bar_geometry(x, el, t, length):  # type: ignore[no-untyped-def]
+def bar_geometry(x, el, t, length):
     """Unit vector of every bar into t (m, 3), length into length (m,) m."""
     for e in range(length.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
@@ -28,7 +28,7 @@ def bar_geometry(x, el, t, length):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def elastic(stretch, el, f, k):  # type: ignore[no-untyped-def]
+def elastic(stretch, el, f, k):
     """Law f (m,) N at a stretch l - l0 (m,) m, continued as an odd function where slack, and its slope k (m,) N/m."""
     for e in range(stretch.shape[0]):
         if el.linear:
@@ -42,7 +42,7 @@ def elastic(stretch, el, f, k):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def water_load(rel, el, t, length, out):  # type: ignore[no-untyped-def]
+def water_load(rel, el, t, length, out):
     """Weight, buoyancy and water on every knot into out (n, 3) N; rel: (n, 3) m/s, the water against the knots."""
     for i in range(out.shape[0]):
         c = el.knot_drag[i] * np.sqrt(rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2)
@@ -66,7 +66,7 @@ def water_load(rel, el, t, length, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def add_tension(tension, el, t, out):  # type: ignore[no-untyped-def]
+def add_tension(tension, el, t, out):
     """Add T t to end a and -T t to end b of every bar; out: (n, 3) N."""
     for e in range(tension.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
@@ -76,7 +76,7 @@ def add_tension(tension, el, t, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def largest_on_free(force, free):  # type: ignore[no-untyped-def]
+def largest_on_free(force, free):
     """Largest size (N) of force (n, 3) on a free knot, and that knot; NaN as soon as one is met."""
     worst, where = 0.0, 0
     for i in range(force.shape[0]):
@@ -90,7 +90,7 @@ def largest_on_free(force, free):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def assemble(block, rel, el, t, start, stride, data):  # type: ignore[no-untyped-def]
+def assemble(block, rel, el, t, start, stride, data):
     """Tangent -dF/dx on the pattern's data: stiffness less the tangent of the water's load.
 
     block: (m, 3, 3) N/m, stiffness of every bar; rel: (n, 3) m/s, the water against the knots; start, stride: of

@@ -15,7 +15,7 @@ from .compiled import OPTIONS
 
 
 @njit(**OPTIONS)
-def bar_water_force(wx, wy, wz, tx, ty, tz, cn, ct):  # type: ignore[no-untyped-def]
+def bar_water_force(wx, wy, wz, tx, ty, tz, cn, ct):
     """Force per length (N/m) of one end: three components."""
     s = wx * tx + wy * ty + wz * tz
     nx, ny, nz = wx - s * tx, wy - s * ty, wz - s * tz
@@ -25,7 +25,7 @@ def bar_water_force(wx, wy, wz, tx, ty, tz, cn, ct):  # type: ignore[no-untyped-
 
 
 @njit(**OPTIONS)
-def bar_water_tangent(w, t, cn, ct, out):  # type: ignore[no-untyped-def]
+def bar_water_tangent(w, t, cn, ct, out):
     """Tangent dF/d(x_b - x_a) of one end's force into out (3, 3) N/m; w, t: (3,).
 
     F = L g(t) gives dF = g t^T + dg/dt (I - t t^T), with

@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 @njit(**OPTIONS)
-def _water_on_bars(rel, el, t, length, out):  # type: ignore[no-untyped-def]
+def _water_on_bars(rel, el, t, length, out):
     """Force of the water on every bar, both ends together, into out (m, 3) N; rel: (n, 3) relative velocity m/s."""
     for e in range(length.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]

@@ -16,7 +16,7 @@ from .total import TINY_LENGTH
 
 
 @njit(**OPTIONS)
-def mass_matrices(x, el, out):  # type: ignore[no-untyped-def]
+def mass_matrices(x, el, out):
     """Mass of every knot into out (n, 6) kg, symmetric entries xx, yy, zz, xy, xz, yz."""
     for i in range(x.shape[0]):
         out[i, 0] = out[i, 1] = out[i, 2] = el.knot_mass[i]
@@ -38,7 +38,7 @@ def mass_matrices(x, el, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def invert_masses(mass, free):  # type: ignore[no-untyped-def]
+def invert_masses(mass, free):
     """Invert symmetric matrices (n, 6) in place; zero for the held knots, so that they do not move."""
     for i in range(mass.shape[0]):
         if free[i] == 0.0:
@@ -58,7 +58,7 @@ def invert_masses(mass, free):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def kinetic_energy(mass, v):  # type: ignore[no-untyped-def]
+def kinetic_energy(mass, v):
     """Half of sum v.M v (J); mass: (n, 6) kg as mass_matrices gives it."""
     total = 0.0
     for i in range(v.shape[0]):
@@ -69,7 +69,7 @@ def kinetic_energy(mass, v):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def largest_frequency(x, k, inverse_mass, el):  # type: ignore[no-untyped-def]
+def largest_frequency(x, k, inverse_mass, el):
     """Upper bound of the largest circular frequency (rad/s) of the net with all its bars taut.
 
     k: (m,) N/m; inverse_mass: (n, 6) 1/kg. From v.K v = sum k (t.(v_b - v_a))^2 <= 2 sum k ((t.v_a)^2 + (t.v_b)^2)
@@ -108,7 +108,7 @@ def largest_frequency(x, k, inverse_mass, el):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _unpack(row, out):  # type: ignore[no-untyped-def]
+def _unpack(row, out):
     out[0, 0], out[1, 1], out[2, 2] = row[0], row[1], row[2]
     out[0, 1] = out[1, 0] = row[3]
     out[0, 2] = out[2, 0] = row[4]
@@ -116,7 +116,7 @@ def _unpack(row, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _times(a, b):  # type: ignore[no-untyped-def]
+def _times(a, b):
     out = np.zeros((3, 3))
     for p in range(3):
         for q in range(3):

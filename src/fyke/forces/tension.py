@@ -8,7 +8,7 @@ from .compiled import OPTIONS
 
 
 @njit(**OPTIONS)
-def law_tension(strain, rows, first, end):  # type: ignore[no-untyped-def]
+def law_tension(strain, rows, first, end):
     """Tension (N) and its slope dT/dstrain (N) at a strain > 0 by the rows of netting.elastic."""
     row = first
     while row + 1 < end and strain >= rows[row + 1, 0]:

@@ -23,7 +23,7 @@ TINY_LENGTH = 1e-300
 
 
 @njit(**OPTIONS)
-def knot_forces(v, u, el, rel, out):  # type: ignore[no-untyped-def]
+def knot_forces(v, u, el, rel, out):
     """Weight and knot drag into out (n, 3) N; velocity of the water relative to the knot into rel (n, 3) m/s."""
     for i in range(v.shape[0]):
         wx = u[i, 0] - v[i, 0]
@@ -37,7 +37,7 @@ def knot_forces(v, u, el, rel, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def total_force(x, v, u, el, rel, g, out):  # type: ignore[no-untyped-def]
+def total_force(x, v, u, el, rel, g, out):
     """Force on every knot into out (n, 3) N.
 
     x, v, u: (n, 3) position m, velocity m/s, velocity of the water at the knots m/s; el: Elements; rel: (n, 3) and
@@ -105,7 +105,7 @@ def total_force(x, v, u, el, rel, g, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _law_of_block(start, size, el, g):  # type: ignore[no-untyped-def]
+def _law_of_block(start, size, el, g):
     """Tension (N) into g[9] and slope dT/dl (N/m) into g[10] by laws that are not all linear."""
     for i in range(size):
         e = start + i

@@ -15,7 +15,7 @@ from ..forces.compiled import OPTIONS
 
 
 @njit(**OPTIONS)
-def path_stiffness(T, w, k, t, length, along, block):  # type: ignore[no-untyped-def]
+def path_stiffness(T, w, k, t, length, along, block):
     """Stiffness T k/(w + T) of every bar along itself into along (m,) N/m; with T/L across it into block (m, 3, 3)."""
     for e in range(T.shape[0]):
         along[e] = T[e] * k[e] / (w[e] + T[e])
@@ -26,14 +26,14 @@ def path_stiffness(T, w, k, t, length, along, block):  # type: ignore[no-untyped
 
 
 @njit(**OPTIONS)
-def path_target(mu, T, w, r, cross, target):  # type: ignore[no-untyped-def]
+def path_target(mu, T, w, r, cross, target):
     """Tension change without motion into target (m,) N; r = w - T + f(e), cross: predictor's dT dw (N2)."""
     for e in range(T.shape[0]):
         target[e] = (mu - T[e] * w[e] - cross[e] + T[e] * r[e]) / (w[e] + T[e])
 
 
 @njit(**OPTIONS)
-def path_right_side(load, T, target, el, t, free, total, out):  # type: ignore[no-untyped-def]
+def path_right_side(load, T, target, el, t, free, total, out):
     """Load and tension T + target on the free knots, into out (3 n_free,) N."""
     total[:] = load
     add_tension(T + target, el, t, total)
@@ -43,7 +43,7 @@ def path_right_side(load, T, target, el, t, free, total, out):  # type: ignore[n
 
 
 @njit(**OPTIONS)
-def bar_changes(dx, along, k, r, target, el, t, de, dT, dw):  # type: ignore[no-untyped-def]
+def bar_changes(dx, along, k, r, target, el, t, de, dT, dw):
     """Elongation de, tension dT and slack dw of every bar for a motion dx (n, 3) m; return the largest rotation.
 
     dT = target + along de, dw = dT - k de - r.
@@ -62,7 +62,7 @@ def bar_changes(dx, along, k, r, target, el, t, de, dT, dw):  # type: ignore[no-
 
 
 @njit(**OPTIONS)
-def path_step(T, w, dT, dw):  # type: ignore[no-untyped-def]
+def path_step(T, w, dT, dw):
     """Return the longest step that keeps every T and w from becoming negative, at most 1e30."""
     longest = 1e30
     for e in range(T.shape[0]):
@@ -74,7 +74,7 @@ def path_step(T, w, dT, dw):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def path_product(T, w, dT, dw, step):  # type: ignore[no-untyped-def]
+def path_product(T, w, dT, dw, step):
     """Mean of (T + step dT)(w + step dw), N2."""
     total = 0.0
     for e in range(T.shape[0]):
@@ -83,7 +83,7 @@ def path_product(T, w, dT, dw, step):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def second_order(x, dx, de, step, el, length, k, r, out):  # type: ignore[no-untyped-def]
+def second_order(x, dx, de, step, el, length, k, r, out):
     """Residual r with the elongation that a motion step dx makes beyond its linear part, into out (m,) N."""
     for e in range(r.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]

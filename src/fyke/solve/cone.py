@@ -18,14 +18,14 @@ from ..forces.total import TINY_LENGTH
 
 
 @njit(**OPTIONS)
-def _cone_norm(y):  # type: ignore[no-untyped-def]
+def _cone_norm(y):
     """Return sqrt(y0^2 - |y1|^2) of one point inside the cone."""
     r = np.sqrt(y[1] * y[1] + y[2] * y[2] + y[3] * y[3])
     return np.sqrt((y[0] - r) * (y[0] + r))
 
 
 @njit(**OPTIONS)
-def _scale(s, v, forward, out):  # type: ignore[no-untyped-def]
+def _scale(s, v, forward, out):
     """Scale one vector v (4,) by W, or by its inverse; s: (5,), eta and the unit vector of the scaling point."""
     eta = s[0] if forward else 1.0 / s[0]
     sign = 1.0 if forward else -1.0
@@ -37,7 +37,7 @@ def _scale(s, v, forward, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def scaling_point(Y, Z, scaling, scaled):  # type: ignore[no-untyped-def]
+def scaling_point(Y, Z, scaling, scaled):
     """Nesterov-Todd scaling of every bar into scaling (m, 5), scaled point W Z = W^-1 Y into scaled (m, 4)."""
     for e in range(Y.shape[0]):
         ny, nz = _cone_norm(Y[e]), _cone_norm(Z[e])
@@ -53,7 +53,7 @@ def scaling_point(Y, Z, scaling, scaled):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def cone_stiffness(scaling, k, block, row):  # type: ignore[no-untyped-def]
+def cone_stiffness(scaling, k, block, row):
     """Stiffness of every bar with its allowance s eliminated, block (m, 3, 3) N/m, and row (m, 4) N/m.
 
     With M = W^-2: row = (k + M00, M01), block = M11 - M01 M01^T / (k + M00).
@@ -72,7 +72,7 @@ def cone_stiffness(scaling, k, block, row):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def cone_target(scaling, scaled, centre, cross, target):  # type: ignore[no-untyped-def]
+def cone_target(scaling, scaled, centre, cross, target):
     """Dual change without motion, W^-1 u, into target (m, 4); l o u = centre e - l o l - cross, l the scaled point."""
     d = np.zeros(4)
     for e in range(scaled.shape[0]):
@@ -89,7 +89,7 @@ def cone_target(scaling, scaled, centre, cross, target):  # type: ignore[no-unty
 
 
 @njit(**OPTIONS)
-def cone_right_side(load, Z, f, target, row, el, free, push, total, out):  # type: ignore[no-untyped-def]
+def cone_right_side(load, Z, f, target, row, el, free, push, total, out):
     """Load less dual force with its change push (m, 3) N, on the free knots, into out (3 n_free,) N."""
     total[:] = load
     for e in range(Z.shape[0]):
@@ -106,7 +106,7 @@ def cone_right_side(load, Z, f, target, row, el, free, push, total, out):  # typ
 
 
 @njit(**OPTIONS)
-def cone_changes(dx, Z, f, k, target, row, push, block, el, dY, dZ):  # type: ignore[no-untyped-def]
+def cone_changes(dx, Z, f, k, target, row, push, block, el, dY, dZ):
     """Changes dY and dZ (m, 4) of every bar for a motion dx (n, 3) m."""
     for e in range(Z.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
@@ -124,7 +124,7 @@ def cone_changes(dx, Z, f, k, target, row, push, block, el, dY, dZ):  # type: ig
 
 
 @njit(**OPTIONS)
-def cone_cross(scaling, dY, dZ, factor, cross):  # type: ignore[no-untyped-def]
+def cone_cross(scaling, dY, dZ, factor, cross):
     """Second-order term factor (W^-1 dY) o (W dZ) of the corrector into cross (m, 4)."""
     y, z = np.zeros(4), np.zeros(4)
     for e in range(dY.shape[0]):
@@ -136,7 +136,7 @@ def cone_cross(scaling, dY, dZ, factor, cross):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def cone_step(Y, dY):  # type: ignore[no-untyped-def]
+def cone_step(Y, dY):
     """Return the longest step along dY that keeps every Y in its cone, at most 1e30."""
     longest = 1e30
     for e in range(Y.shape[0]):
@@ -159,7 +159,7 @@ def cone_step(Y, dY):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def cone_turn(Y, dY):  # type: ignore[no-untyped-def]
+def cone_turn(Y, dY):
     """Return the largest motion of a bar's end across the bar over its allowed length, about its rotation (rad)."""
     square = 0.0
     for e in range(Y.shape[0]):
@@ -174,7 +174,7 @@ def cone_turn(Y, dY):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def cone_product(Y, Z, dY, dZ, step):  # type: ignore[no-untyped-def]
+def cone_product(Y, Z, dY, dZ, step):
     """Mean over the bars of (Y + step dY).(Z + step dZ), N m."""
     total = 0.0
     for e in range(Y.shape[0]):
@@ -184,7 +184,7 @@ def cone_product(Y, Z, dY, dZ, step):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def smallest_gap(Y, rest_length):  # type: ignore[no-untyped-def]
+def smallest_gap(Y, rest_length):
     """Return the smallest (y0 - |y1|) / l0 of all bars."""
     gap = 1e30
     for e in range(Y.shape[0]):

@@ -15,7 +15,7 @@ from ..forces.drag import bar_water_tangent
 
 
 @njit(**OPTIONS)
-def smooth_bars(T, w, g, mu, p, r, c):  # type: ignore[no-untyped-def]
+def smooth_bars(T, w, g, mu, p, r, c):
     """Share p in [0, 1] of a bar's stiffness that acts, residual r = w - T + g and change c of T without motion (N).
 
     Returns the largest violation of T + w = sqrt((T - w)^2 + 4 mu) and the largest r, in N.
@@ -33,7 +33,7 @@ def smooth_bars(T, w, g, mu, p, r, c):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride, diagonal, data):  # type: ignore[no-untyped-def]
+def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride, diagonal, data):
     """Matrix cm M + c1 C + c0 K of one step on the pattern's data; K = -dF/dx, C = -dF/dv.
 
     rel: (n, 3) m/s, the water against the knots; along: (m,) N/m, stiffness of a bar along itself, damping included;
@@ -77,7 +77,7 @@ def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride,
 
 
 @njit(**OPTIONS)
-def _add_knots(rel, el, c1, cm, mass, diagonal, data):  # type: ignore[no-untyped-def]
+def _add_knots(rel, el, c1, cm, mass, diagonal, data):
     """Add mass and drag of the knots to their own blocks."""
     block = np.zeros((3, 3))
     for i in range(rel.shape[0]):
@@ -100,7 +100,7 @@ def _add_knots(rel, el, c1, cm, mass, diagonal, data):  # type: ignore[no-untype
 
 
 @njit(**OPTIONS)
-def step_right_side(load, T, c, a, a_old, cm, mass, el, t, free, total, out):  # type: ignore[no-untyped-def]
+def step_right_side(load, T, c, a, a_old, cm, mass, el, t, free, total, out):
     """Load, tension T + c and inertia M (cm a + (1 - cm) a_old), on the free knots, into out (3 n_free,) N."""
     total[:] = load
     for e in range(T.shape[0]):

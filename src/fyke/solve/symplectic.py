@@ -36,7 +36,7 @@ STEPS_PER_CALL = 2000
 
 
 @njit(**OPTIONS)
-def _kick(v, h, el, rel, force, inverse, area):  # type: ignore[no-untyped-def]
+def _kick(v, h, el, rel, force, inverse, area):
     """Change velocities by the forces over a time h; area: (n,) kg/m, drag coefficient of all that hangs on a knot."""
     for i in range(v.shape[0]):
         hc = h * area[i] * np.sqrt(rel[i, 0] * rel[i, 0] + rel[i, 1] * rel[i, 1] + rel[i, 2] * rel[i, 2])
@@ -52,7 +52,7 @@ def _kick(v, h, el, rel, force, inverse, area):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _drift(x, v, h):  # type: ignore[no-untyped-def]
+def _drift(x, v, h):
     for i in range(x.shape[0]):
         x[i, 0] += h * v[i, 0]
         x[i, 1] += h * v[i, 1]
@@ -60,7 +60,7 @@ def _drift(x, v, h):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _steps_until_turned(x, v, el, h):  # type: ignore[no-untyped-def]
+def _steps_until_turned(x, v, el, h):
     """Steps after which the fastest turning bar has turned by TURN."""
     fastest = 0.0
     for e in range(el.knot_a.shape[0]):
@@ -74,7 +74,7 @@ def _steps_until_turned(x, v, el, h):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def leap(x, v, h, steps, u, el, work, area):  # type: ignore[no-untyped-def]
+def leap(x, v, h, steps, u, el, work, area):
     """Take so many steps; x and v at the same time before and after. Returns force evaluations."""
     rel, g, force, inverse = work
     total_force(x, v, u, el, rel, g, force)

@@ -53,7 +53,7 @@ LEAST_STEP = 1e-13
 
 
 @njit(**OPTIONS)
-def _accelerate(x, v, u, el, rel, g, force, inverse, out):  # type: ignore[no-untyped-def]
+def _accelerate(x, v, u, el, rel, g, force, inverse, out):
     """Acceleration of every knot into out (n, 3) m/s2."""
     total_force(x, v, u, el, rel, g, force)
     mass_matrices(x, el, inverse)
@@ -67,7 +67,7 @@ def _accelerate(x, v, u, el, rel, g, force, inverse, out):  # type: ignore[no-un
 
 
 @njit(**OPTIONS)
-def _combine(y, h, weights, k, count, out):  # type: ignore[no-untyped-def]
+def _combine(y, h, weights, k, count, out):
     """Put y + h sum of weights[r] k[r] over r < count into out; all (3 n,), k (stages, 3 n)."""
     out[:] = y
     for r in range(count):
@@ -78,7 +78,7 @@ def _combine(y, h, weights, k, count, out):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def _step(x, v, h, u, el, work, kx, kv, table, weights, error, first):  # type: ignore[no-untyped-def]
+def _step(x, v, h, u, el, work, kx, kv, table, weights, error, first):
     """One trial step: new x and v, and the error estimate of both, into work; first: the first stage is still good."""
     rel, g, force, inverse, xs, vs, ex, ev = work
     flat_x, flat_v = x.ravel(), v.ravel()
@@ -98,7 +98,7 @@ def _step(x, v, h, u, el, work, kx, kv, table, weights, error, first):  # type: 
 
 
 @njit(**OPTIONS)
-def _largest(a):  # type: ignore[no-untyped-def]
+def _largest(a):
     """Largest absolute entry; NaN when there is one."""
     worst = 0.0
     for q in a.ravel():
@@ -111,7 +111,7 @@ def _largest(a):  # type: ignore[no-untyped-def]
 
 
 @njit(**OPTIONS)
-def advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tolerance):  # type: ignore[no-untyped-def]
+def advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tolerance):
     """Adaptive steps until clock[1] or for so many steps.
 
     clock: time, end, step, largest step (s), written back; tolerance: rtol, atol, length (m), speed (m/s).
