@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test bench format clean
+.PHONY: demo test bench bench-peers format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -18,6 +18,9 @@ test: $(VENV)/.installed-test
 
 bench: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/run.py
+
+bench-peers: $(VENV)/.installed-peers
+	@$(BIN)/python benchmarks/peers.py
 
 format: $(VENV)/.installed-test
 	@$(BIN)/ruff format . && $(BIN)/ruff check --fix .
@@ -38,3 +41,8 @@ $(VENV)/.installed-test: $(VENV)/bin/python pyproject.toml
 	@echo "== installing fyke and its test tools into $(VENV) (a minute on the first call)"
 	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[test]"
 	@touch $@ $(VENV)/.installed
+
+$(VENV)/.installed-peers: $(VENV)/.installed-test
+	@echo "== installing the tools to compare with into $(VENV) (a minute on the first call)"
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[peers]" && touch $@ \
+	  || echo "== not all could be installed; the table says which are missing"
