@@ -26,6 +26,15 @@ def test_released_panel_comes_to_the_static_rest(framed, stepper):
     assert np.abs(result.tension[-1] - static.tension[-1]).max() < 1e-4 * static.tension.max()
 
 
+def test_leapfrog_comes_to_rest_without_twine_damping(framed):
+    """A step too near to the stability bound keeps an undamped panel ringing for ever, with ten times the tension."""
+    system = framed()
+    static = fyke.solve_static(system)
+    end = fyke.simulate(system, duration=2.5, every=2.5, stepper=fyke.Symplectic()).frame()
+    assert np.abs(end.position - static.position[-1]).max() < 1e-6
+    assert end.tension.max() == pytest.approx(static.tension.max(), rel=0.01)
+
+
 def total_energy(system, frame):
     """Kinetic, elastic (linear law) and potential energy of weight less buoyancy, J."""
     el = system.elements

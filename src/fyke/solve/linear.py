@@ -141,7 +141,10 @@ class RslabSmall:
         import rslab
 
         self._pattern = pattern
-        self._symbolic = rslab.analyze(pattern.matrix(np.ones(len(pattern.indices))), path="klu")
+        # Ordered for a heavy diagonal, as stiffness and mass make it, whatever the first matrix.
+        model = pattern.matrix(np.ones(len(pattern.indices)))
+        model.setdiag(float(len(pattern.indptr)))
+        self._symbolic = rslab.analyze(model, path="klu")
         self._handle: Any = None
 
     def renew(self) -> None:

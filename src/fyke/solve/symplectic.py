@@ -26,8 +26,8 @@ from .stepper import Count, Memory, Status, fluid_velocity, highest_frequency
 
 Array = NDArray[np.float64]
 
-# Part of the stable step that is used: bars that snap taut and turn leave no more.
-SAFETY = 0.9
+# Part of the stable step that is used: bars that snap taut leave no more. At 0.9 an undamped panel never comes to rest.
+SAFETY = 0.7
 # Masses turn with the bars; they are renewed before a bar has turned by so much (rad), at the latest after so many
 # steps.
 TURN, LONGEST_LAG = 0.01, 64
