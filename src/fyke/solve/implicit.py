@@ -196,12 +196,8 @@ class ImplicitRun:
                 self.step = SHRINK * h
                 continue
             jump = (self.an - self.a)[self.pattern.free]
-            err = (
-                h
-                * h
-                * abs(self.scheme.beta - 1.0 / 6.0)
-                * float(np.sqrt((jump**2).sum() / max(len(jump), 1)))
-            )
+            size = float(np.sqrt((jump**2).sum() / max(len(jump), 1)))
+            err = h * h * abs(self.scheme.beta - 1.0 / 6.0) * size
             factor = SAFETY * (self.tolerance / max(err, TINY)) ** (1.0 / 3.0)
             if err > WORST_ERROR * self.tolerance and not method.fixed:
                 self.count.rejected += 1
@@ -231,12 +227,12 @@ class ImplicitRun:
                 solve = self._factor(c0, c1)
             except SingularMatrixError:
                 return False
-            turn = self._direction(solve, c0, self.r)
+            turn = self._direction(solve, self.r)
             if iteration < SECOND_ORDER_STEPS:
                 second_order(self.xn, self.dx, self.de, 1.0, el, self.length, self.k, self.r, self.bent)
                 if np.abs(self.bent - self.r).max(initial=0.0) > SECOND_ORDER * self.tension_scale:
                     self.c += self.p * (self.bent - self.r)
-                    turn = self._direction(solve, c0, self.bent)
+                    turn = self._direction(solve, self.bent)
             moved = float(np.abs(self.dx).max(initial=0.0))
             if not np.isfinite(moved):
                 return False
@@ -284,7 +280,7 @@ class ImplicitRun:
         self.count.factorizations += 1
         return self.linear.factor(self.data)
 
-    def _direction(self, solve: Solve, c0: float, r: Array) -> float:
+    def _direction(self, solve: Solve, r: Array) -> float:
         """Motion dx and the changes of the bars for the residual r; returns the largest rotation."""
         p, el = self.pattern, self.el
         step_right_side(
