@@ -123,8 +123,18 @@ def simulate(
             f"stopped by hand at {run.state.time:.4g} s",
             "the frames so far are saved; fyke run --resume goes on from there",
         )
+    seconds = time.perf_counter() - began
+    outcome = _outcome(
+        run, method, verdict, seconds, frames[-1], warnings + strain_warnings(system.net, frames)
+    )
+    return Result.from_frames(system.net, outcome, system.weight_in_water, frames, system.case_text)
+
+
+def _outcome(
+    run: Run, method: Stepper, verdict: Verdict, seconds: float, last: Frame, warnings: tuple[str, ...]
+) -> Outcome:
     name, message, advice = verdict
-    outcome = Outcome(
+    return Outcome(
         name=name,
         message=message,
         advice=advice,
@@ -132,14 +142,13 @@ def simulate(
         linear_solver=run.linear_solver,
         iterations=run.count.steps,
         factorizations=run.count.factorizations,
-        residual=frames[-1].unbalanced_force,
-        wall_time=time.perf_counter() - began,
+        residual=last.unbalanced_force,
+        wall_time=seconds,
         time=run.state.time,
         rejected=run.count.rejected,
         force_evaluations=run.count.evaluations,
-        warnings=warnings + strain_warnings(system.net, frames),
+        warnings=warnings,
     )
-    return Result.from_frames(system.net, outcome, system.weight_in_water, frames, system.case_text)
 
 
 def _step_warnings(system: System, state: State, method: Stepper) -> tuple[str, ...]:
