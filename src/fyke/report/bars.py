@@ -15,6 +15,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
 from . import style
+from .parts import Knots, Outline
 from .ticks import STEPS, number
 
 Array = NDArray[np.float64]
@@ -23,6 +24,7 @@ Indices = NDArray[np.int64]
 DASHED_UP_TO = 2000  # bars; beyond, a bar is shorter on paper than a dash
 VECTORS_UP_TO = 8000  # bars; beyond, they go into a vector file as one image, which keeps it small
 KNOTS_UP_TO = 600
+MARKERS = {"square": "s", "circle": "o", "diamond": "D"}
 
 
 def tension_scale(tension: Array) -> Normalize:
@@ -91,13 +93,32 @@ def draw_tension(
         )
 
 
-def draw_knots(ax: Axes, points: Array, fixed: NDArray[np.bool_], *, free: bool = False) -> None:
-    """Mark the fixed knots among points (n, 2), and the free ones when asked, unless they are too many."""
-    size = float(np.clip(2.6 * np.sqrt(150.0 / len(points)), 1.2, 2.6))
-    if free and not fixed.all() and len(points) <= KNOTS_UP_TO:
-        mark(ax, points[~fixed], marker="o", markersize=0.85 * size, color=style.BLUE, label="free knot")
-    if fixed.any() and np.count_nonzero(fixed) <= KNOTS_UP_TO:
-        mark(ax, points[fixed], marker="s", markersize=size, color=style.BLACK, label="fixed knot")
+def knot_size(knots: int) -> float:
+    """Return the size (points) of the marker of a fixed knot on a net of so many knots."""
+    return float(np.clip(2.6 * np.sqrt(150.0 / max(knots, 1)), 1.2, 2.6))
+
+
+def draw_free_knots(ax: Axes, points: Array, fixed: NDArray[np.bool_]) -> None:
+    """Mark the free knots among points (n, 2), unless they are too many."""
+    if not fixed.all() and len(points) <= KNOTS_UP_TO:
+        size = 0.85 * knot_size(len(points))
+        mark(ax, points[~fixed], marker="o", markersize=size, color=style.BLUE, label="free knot")
+
+
+def draw_knots(ax: Axes, points: Array, part: Knots) -> None:
+    """Mark the knots of a part among points (n, 2), unless they are too many."""
+    if len(part.knots) <= KNOTS_UP_TO:
+        size = part.size * knot_size(len(points))
+        kind = MARKERS[part.marker]
+        mark(ax, points[part.knots], marker=kind, markersize=size, color=part.colour, label=part.name)
+
+
+def draw_outline(ax: Axes, points: Array, part: Outline) -> None:
+    """Draw the line of a part through points (k, 2) on paper."""
+    line = LineCollection(
+        [points], colors=part.colour, linewidths=0.5 * part.width, zorder=1.5, clip_on=False
+    )
+    ax.add_collection(line, autolim=False)
 
 
 def mark(ax: Axes, points: Array, **options: Any) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -12,6 +12,7 @@ from ..netting.net import Net, Panel
 from ..solve.result import Result
 from . import style
 from .bars import draw_knots, draw_tension, name_marks, slack_name, tension_bar, tension_scale
+from .parts import Knots, parts_of
 from .plane import frame, plane_axes
 
 Array = NDArray[np.float64]
@@ -51,11 +52,18 @@ def tension_plan(result: Result) -> Figure:
         ax.set_title(plan.title)
         bars, tension = result.net.bars[plan.bars], result.tension[-1][plan.bars]
         draw_tension(ax, plan.points, bars, tension, scale, named=slack_name(shown))
-        draw_knots(ax, plan.points[plan.knots], result.net.fixed[plan.knots])
+        for part in parts_of(result.net):
+            if isinstance(part, Knots):
+                draw_knots(ax, plan.points, _within(part, plan.knots, len(plan.points)))
     if taut:
         tension_bar(figure, sheet.colour_bar, scale)
     name_marks(figure)
     return figure
+
+
+def _within(part: Knots, knots: slice, count: int) -> Knots:
+    """Return the part of Knots that lies in a slice of so many knots."""
+    return replace(part, knots=np.intersect1d(part.knots, np.arange(count)[knots]))
 
 
 @dataclass(frozen=True)

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch
 from numpy.typing import ArrayLike, NDArray
 
+from ..netting.net import Net
 from ..solve.result import Result
 from . import style
 from .bars import (
     draw_bars,
+    draw_free_knots,
     draw_knots,
+    draw_outline,
     draw_tension,
     line_width,
     name_marks,
@@ -20,6 +25,7 @@ from .bars import (
     tension_bar,
     tension_scale,
 )
+from .parts import Bars, Outline, parts_of
 from .space import View, box, far_to_near, seen_extent, space_axes
 
 Array = NDArray[np.float64]
@@ -37,11 +43,17 @@ def initial_position(result: Result, *, current: ArrayLike | None = None) -> Fig
     net = result.net
     speed = 0.0 if current is None else float(np.linalg.norm(current))
     figure, ax, view = _in_space(result, above=LEGEND + (ARROW if speed else 0.0), below=NUMBERS)
+    width = line_width(net.bar_count)
+
+    def plain(points: Array, part: Bars) -> None:
+        colour = part.colour or style.BLUE
+        draw_bars(
+            ax, points, net.bars[part.bars], colors=colour, linewidths=0.6 * part.width * width, gid="bars"
+        )
+
     seen = view.see(net.positions)
-    draw_bars(
-        ax, seen[:, :2], net.bars, colors=style.BLUE, linewidths=0.6 * line_width(net.bar_count), gid="bars"
-    )
-    draw_knots(ax, seen[:, :2], net.fixed, free=True)
+    _draw_parts(ax, view, net, seen, plain)
+    draw_free_knots(ax, seen[:, :2], net.fixed)
     if speed:
         _draw_current(figure, view, np.asarray(current, dtype=float) / speed, speed)
     name_marks(figure)
@@ -55,14 +67,32 @@ def equilibrium_shape(result: Result) -> Figure:
     taut = bool(np.any(tension > 0.0))
     scale = tension_scale(tension)
     figure, ax, view = _in_space(result, above=LEGEND, below=NUMBERS + (COLOUR_BAR if taut else 0.0))
+
+    def coloured(points: Array, part: Bars) -> None:
+        bars = part.bars[far_to_near(seen, net.bars[part.bars])]
+        if part.colour is None:
+            draw_tension(ax, points, net.bars[bars], tension[bars], scale, named=slack_name(tension))
+        else:
+            width = part.width * line_width(net.bar_count)
+            draw_bars(ax, points, net.bars[bars], colors=part.colour, linewidths=width, label=part.name)
+
     seen = view.see(result.position[-1])
-    order = far_to_near(seen, net.bars)
-    draw_tension(ax, seen[:, :2], net.bars[order], tension[order], scale, named=slack_name(tension))
-    draw_knots(ax, seen[:, :2], net.fixed)
+    _draw_parts(ax, view, net, seen, coloured)
     if taut:
         tension_bar(figure, (0.55, 0.34, style.SINGLE_COLUMN - 1.1, 0.07), scale)
     name_marks(figure)
     return figure
+
+
+def _draw_parts(ax: Axes, view: View, net: Net, seen: Array, draw: Callable[[Array, Bars], None]) -> None:
+    """Draw all parts of a net whose knots are seen at (n, 3); draw: how its bars are drawn."""
+    for part in parts_of(net):
+        if isinstance(part, Outline):
+            draw_outline(ax, view.see(part.points)[:, :2], part)
+        elif isinstance(part, Bars):
+            draw(seen[:, :2], part)
+        else:
+            draw_knots(ax, seen[:, :2], part)
 
 
 def _in_space(result: Result, *, above: float, below: float) -> tuple[Figure, Axes, View]:
