@@ -72,6 +72,21 @@ def parse_case(text: str, where: str = "case", *, path: FilePath | None = None) 
     return Case.model_validate(raw, context={**context, "warnings": warnings(case)})
 
 
+def recorded_case(text: str) -> Case:
+    """Take up the case that a result carries: it was good when it ran, but files that it names may be gone.
+
+    Raises CaseError for a text that this version of fyke does not take.
+    """
+    context: dict[str, Any] = {"text": text}
+    raw = _toml(text, "case of the result")
+    try:
+        case = Case.model_validate(raw, context=context)
+    except ValidationError as error:
+        problems, _ = explain(error, Places("case of the result", text))
+        raise CaseError(list(problems.values())) from None
+    return Case.model_validate(raw, context={**context, "warnings": warnings(case)})
+
+
 def _unreadable(file: FilePath, error: OSError | ValueError) -> Problem:
     found = "a folder" if file.is_dir() else getattr(error, "strerror", None) or str(error)
     cure = "check the name and the folder"

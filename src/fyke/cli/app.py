@@ -97,6 +97,26 @@ def cite(case: CaseFile) -> None:
     raise typer.Exit(print_sources(case))
 
 
+@app.command()
+def report(
+    result: Annotated[
+        Path, typer.Argument(metavar="RESULT", show_default=False, help="result.nc or the folder of a run.")
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Page to write; report.html beside the result."),
+    ] = None,
+    positions: Annotated[
+        Path | None, typer.Option("--positions", metavar="CSV", help="Measured positions to compare with.")
+    ] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace a page that is there.")] = False,
+) -> None:
+    """Write one HTML page of a result, to hand over."""
+    from .report import report_result
+
+    raise typer.Exit(report_result(result, output, positions, overwrite=overwrite))
+
+
 def main() -> None:
     """Run the command line."""
     app(prog_name="fyke")

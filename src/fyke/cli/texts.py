@@ -7,8 +7,9 @@ import sys
 import textwrap
 from pathlib import Path
 
-from ..case import CaseError, Problem, json_schema, load_case, template
+from ..case import Case, CaseError, Problem, json_schema, load_case, template
 from ..netting.twine import MATERIALS
+from ..system.system import System
 from ..version import __version__
 from .show import DONE, WRONG_INPUT, print_problems, stdout
 
@@ -52,6 +53,14 @@ def print_schema() -> None:
     sys.stdout.write("\n")
 
 
+def sources_of(case: Case, system: System) -> tuple[str, ...]:
+    """Where the laws, materials and methods of a case come from, one line each."""
+    used = {twine.material for twine in case.twine.values() if twine.material and twine.takes_from_material}
+    materials = [f"material {name}: {MATERIALS[name].source}" for name in sorted(used)]
+    method = case.solve.stepper if case.solve.kind == "dynamic" else "static"
+    return (*system.sources, *materials, METHODS[method])
+
+
 def print_sources(file: Path) -> int:
     """Print where the laws, materials and methods of a case come from and return the exit code."""
     from ..system.build import build_net, build_system
@@ -61,11 +70,8 @@ def print_sources(file: Path) -> int:
     except CaseError as error:
         print_problems(error.problems)
         return WRONG_INPUT
-    used = {twine.material for twine in case.twine.values() if twine.material and twine.takes_from_material}
-    materials = [f"material {name}: {MATERIALS[name].source}" for name in sorted(used)]
-    method = case.solve.stepper if case.solve.kind == "dynamic" else "static"
     console = stdout()
     console.print(f"Computed with fyke {__version__}, built on:")
-    for source in (*build_system(build_net(case), case).sources, *materials, METHODS[method]):
+    for source in sources_of(case, build_system(build_net(case), case)):
         console.print(textwrap.fill(source, console.width, initial_indent="- ", subsequent_indent="  "))
     return DONE

@@ -21,6 +21,7 @@ from .shapes import equilibrium_shape, initial_position
 __all__ = [
     "draw_all",
     "equilibrium_shape",
+    "figures_of",
     "histories",
     "initial_position",
     "shape_comparison",
@@ -49,6 +50,14 @@ def draw_all(
     comparison: adds the overlay of measured positions; current: (3,) m/s, undisturbed, for the arrow of the initial
     position and the direction of drag. A result of more than one frame has histories. Return the files written.
     """
+    figures = figures_of(result, comparison=comparison, current=current)
+    return [file for name, figure in figures.items() for file in write_figure(figure, Path(folder) / name)]
+
+
+def figures_of(
+    result: Result, *, comparison: Comparison | None = None, current: ArrayLike | None = None
+) -> dict[str, Figure]:
+    """Draw every figure that applies to a result, by name; arguments are those of `draw_all`."""
     figures = {
         "initial_position": initial_position(result, current=current),
         "equilibrium_shape": equilibrium_shape(result),
@@ -59,7 +68,7 @@ def draw_all(
         figures["histories"] = histories(result, current=current)
     if comparison is not None:
         figures["comparison"] = shape_comparison(result, comparison)
-    return [file for name, figure in figures.items() for file in write_figure(figure, Path(folder) / name)]
+    return figures
 
 
 @style.styled

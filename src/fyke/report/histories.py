@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 LEFT, RIGHT, BELOW, ABOVE, GAP, HEIGHT = 0.7, 0.12, 0.38, 0.08, 0.12, 0.85  # in
 LABEL = 0.36  # in, from an axis to its label
+ENERGY = "Kinetic energy"
 
 
 @style.styled
@@ -30,29 +31,34 @@ def histories(result: Result, *, current: ArrayLike | None = None) -> Figure:
         raise ValueError(
             "a history needs two frames at least; this result has one, as that of a static solve"
         )
-    curves = [
-        ("Centre\ndeflection", centre_deflection(result), "m"),
-        ("Drag", drag(result, current), "N"),
-        ("Largest\ntension", result.tension.max(axis=1, initial=0.0), "N"),
-    ]
-    moves = bool(np.any(result.kinetic_energy > 0.0))
-    count = len(curves) + moves
+    shown = [one for one in curves(result, current) if one[0] != ENERGY or np.any(one[1] > 0.0)]
+    count = len(shown)
     width, height = style.SINGLE_COLUMN, ABOVE + count * HEIGHT + (count - 1) * GAP + BELOW
     figure = Figure(figsize=(width, height))
     for index in range(count):
         bottom = height - ABOVE - HEIGHT - index * (HEIGHT + GAP)
         room = (LEFT / width, bottom / height, 1.0 - (LEFT + RIGHT) / width, HEIGHT / height)
         ax = figure.add_axes(room, sharex=figure.axes[0] if index else None, label=f"history {index}")
-        if index < len(curves):
-            name, values, unit = curves[index]
-            draw_history(ax, result.time, values, name=name, unit=unit)
+        name, values, unit = shown[index]
+        if name == ENERGY:
+            draw_energy(ax, result.time, values)
         else:
-            draw_energy(ax, result.time, result.kinetic_energy)
+            draw_history(ax, result.time, values, name=name.replace(" ", "\n"), unit=unit)
         ax.yaxis.set_label_coords(-LABEL / (width - LEFT - RIGHT), 0.5)
         ax.tick_params(labelbottom=index == count - 1)
     figure.axes[-1].set_xlabel("Time (s)")
     figure.axes[-1].set_xlim(float(result.time[0]), float(result.time[-1]))
     return figure
+
+
+def curves(result: Result, current: ArrayLike | None) -> list[tuple[str, Array, str]]:
+    """Name, values (k,) and unit of what is followed through a run; current as for `histories`."""
+    return [
+        ("Centre deflection", centre_deflection(result), "m"),
+        ("Drag", drag(result, current), "N"),
+        ("Largest tension", result.tension.max(axis=1, initial=0.0), "N"),
+        (ENERGY, result.kinetic_energy, "J"),
+    ]
 
 
 def draw_history(ax: Axes, time: Array, values: Array, *, name: str, unit: str) -> None:

@@ -1,0 +1,94 @@
+"""fyke report: one HTML page of a result."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from ..case import Case, CaseError, Problem, recorded_case
+from ..results import Comparison, MeasurementError, ResultError, audit, compare, load, summary
+from ..solve.result import Result
+from ..system.build import build_net, build_system
+from ..system.system import System
+from .folder import RESULT
+from .show import DONE, WRONG_INPUT, print_problems, print_warnings, stderr, stdout
+from .texts import sources_of
+
+REPORT = "report.html"
+
+
+def report_result(file: Path, output: Path | None, positions: Path | None, *, overwrite: bool) -> int:
+    """Write the report of a result, given as its file or the folder of its run, and return the exit code."""
+    from ..report.page import Origin, write_report
+
+    source = file / RESULT if file.is_dir() else file
+    target = output or source.with_name(REPORT)
+    if target.exists() and not overwrite:
+        cure = "add --overwrite, or choose another name with -o FILE"
+        print_problems([Problem(str(target), "a file of this name", "a name for a new file", cure)])
+        return WRONG_INPUT
+    try:
+        result = load(source)
+        case, system = behind(result)
+        comparison, warnings = _measured(result, case, source, positions)
+        figures = _figures(result, case, system, comparison)
+        figures["warnings"] += warnings
+        sources = () if case is None or system is None else sources_of(case, system)
+        origin = Origin(source, case, system, sources)
+        write_report(result, target, figures=figures, origin=origin, comparison=comparison)
+    except ResultError as error:
+        stderr().print(str(error), soft_wrap=True)
+        return WRONG_INPUT
+    except MeasurementError as error:
+        print_problems(error.problems)
+        return WRONG_INPUT
+    except OSError as error:
+        found, cure = error.strerror or str(error), "free the disk, or choose another place with -o FILE"
+        print_problems([Problem(str(target), found, "a place that can be written", cure)])
+        return WRONG_INPUT
+    print_warnings(stdout(), warnings)
+    size = target.stat().st_size / 1e6
+    stdout().print(f"{target}: {size:.1f} MB, opens in any browser, without a network", soft_wrap=True)
+    return DONE
+
+
+def behind(result: Result) -> tuple[Case, System] | tuple[None, None]:
+    """Return case and system that made a result; None for a net made in Python and a case of another version."""
+    if not result.case_text:
+        return None, None
+    try:
+        case = recorded_case(result.case_text)
+    except CaseError:
+        return None, None
+    system = build_system(build_net(case), case)
+    return (case, system) if system.net.labels == result.net.labels else (None, None)
+
+
+def _measured(
+    result: Result, case: Case | None, source: Path, positions: Path | None
+) -> tuple[Comparison | None, list[str]]:
+    """Compare with the file that is asked for, or with that of the case where it can be found."""
+    if positions is not None:
+        return compare(result, positions), []
+    if case is None or case.compare is None:
+        return None, []
+    name = case.compare.positions
+    for folder in (source.parent, source.parent.parent, Path()):
+        if (folder / name).is_file():
+            return compare(result, folder / name), []
+    return None, [
+        f"the measured positions {name} of the case are not near the result: give them with --positions"
+    ]
+
+
+def _figures(
+    result: Result, case: Case | None, system: System | None, comparison: Comparison | None
+) -> dict[str, Any]:
+    figures = summary(
+        result,
+        current_direction=None if case is None else case.current.velocity,
+        audit=None if system is None else audit(system, result),
+    )
+    own = () if case is None else case.warnings
+    figures["warnings"] = list(dict.fromkeys([*own, *result.outcome.warnings]))
+    return figures
