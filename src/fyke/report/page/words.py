@@ -86,7 +86,7 @@ def account_words(figures: dict[str, Any]) -> list[str]:
         )
     else:
         words.append(
-            f"At the end the net's inertia takes {number(left, 'N', 2)} of them, {worst} of it at knot {knot}. "
+            f"At the end the largest force that only the inertia of a knot balances is {worst}, at knot {knot}. "
             if knot
             else "All knots are held. "
         )
