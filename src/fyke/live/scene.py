@@ -1,0 +1,165 @@
+"""The net of the live page in space: its parts from the common register, and the grip on one knot."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import viser
+from matplotlib.colors import to_rgb
+from numpy.typing import ArrayLike, NDArray
+
+from ..report.parts import Bars, Knots, Outline, parts_of
+from ..report.quantities import BarQuantity, quantities
+from ..report.space import AZIMUTH, ELEVATION
+from ..report.style import SLACK_GREY, TENSION_COLOURS
+from .study import Study
+
+Array = NDArray[np.float64]
+
+# Pixels of a bar and of a frame; a knot over a bar; distance of the eye over the diagonal of the net, the grip over it.
+BAR, FRAME, KNOT, EYE, GRIP = 4.0, 3.0, 0.12, 1.25, 0.12
+
+
+def _bytes(colours: ArrayLike) -> NDArray[np.uint8]:
+    """Turn colours (..., 3) of sRGB, 0 to 1, into the linear bytes that browsers render (IEC 61966-2-1)."""
+    c = np.asarray(colours, dtype=float)
+    linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+    return np.rint(255.0 * linear).astype(np.uint8)
+
+
+PALETTE = _bytes(TENSION_COLOURS(np.linspace(0.0, 1.0, 256))[:, :3])
+GREY = _bytes(to_rgb(SLACK_GREY))
+
+
+class Scene:
+    """What one browser sees of a study."""
+
+    def __init__(self, client: viser.ClientHandle, study: Study) -> None:
+        self.client, self.study = client, study
+        self.top = 1.0
+        self.gripped: int | None = None
+        self._grip: viser.TransformControlsHandle | None = None
+        self._drag: Callable[[int, Array], None] = lambda knot, place: None
+        self._choice = 0
+        self._lines: dict[str, viser.LineSegmentsHandle] = {}
+        self._points: dict[str, viser.PointCloudHandle] = {}
+        net = study.result.net
+        low, high = net.positions.min(axis=0), net.positions.max(axis=0)
+        self._size = float(np.linalg.norm(high - low)) or 1.0
+        self._look_at((low + high) / 2.0)
+        self.draw()
+
+    def _look_at(self, middle: Array) -> None:
+        azimuth, elevation = np.deg2rad([AZIMUTH, ELEVATION])
+        towards = np.array(
+            [np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)]
+        )
+        self.client.scene.set_up_direction("+z")
+        camera = self.client.camera
+        camera.up_direction = (0.0, 0.0, 1.0)
+        camera.position = tuple(middle + EYE * self._size * towards)
+        camera.look_at = tuple(middle)
+        camera.near = 0.01 * self._size
+
+    @property
+    def _offered(self) -> tuple[BarQuantity, ...]:
+        return quantities(self.study.current)
+
+    @property
+    def choices(self) -> list[str]:
+        """What bars can be coloured by, with units."""
+        return [f"{q.name} ({q.unit})" for q in self._offered]
+
+    def choose(self, name: str) -> None:
+        """Colour by another quantity."""
+        self._choice = self.choices.index(name) if name in self.choices else 0
+
+    @property
+    def quantity(self) -> BarQuantity:
+        """What bars are coloured by."""
+        return self._offered[min(self._choice, len(self._offered) - 1)]
+
+    def renew(self) -> None:
+        """Take away what stands where the net was, after a change of the net itself."""
+        for handle in (*self._lines.values(), *self._points.values()):
+            handle.remove()
+        self._lines, self._points = {}, {}
+
+    def draw(self) -> None:
+        """Send the present shape."""
+        result = self.study.result
+        position = result.position[-1].astype(np.float32)
+        values = self.quantity.values(result, 0, self.study.current)
+        self.top = float(values.max(initial=0.0)) or 1.0
+        slack = result.tension[-1] <= 0.0
+        colours = PALETTE[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]
+        colours[slack] = GREY
+        with self.client.atomic():
+            for part in parts_of(result.net):
+                if isinstance(part, Outline):
+                    points = part.points.astype(np.float32)
+                    self._line(part.name, np.stack([points[:-1], points[1:]], axis=1), part.colour, FRAME)
+                elif isinstance(part, Bars):
+                    own = colours[part.bars] if part.colour is None else part.colour
+                    self._line(part.name, position[result.net.bars[part.bars]], own, BAR * part.width)
+                else:
+                    self._mark(part, position)
+
+    def _line(
+        self, name: str, points: NDArray[np.float32], colour: NDArray[np.uint8] | str, width: float
+    ) -> None:
+        colours = np.empty((len(points), 2, 3), dtype=np.uint8)
+        colours[:] = (
+            (255.0 * np.array(to_rgb(colour))).astype(np.uint8)
+            if isinstance(colour, str)
+            else colour[:, None]
+        )
+        handle = self._lines.get(name)
+        if handle is None:
+            self._lines[name] = self.client.scene.add_line_segments(
+                f"/{name}", points, colours, thickness=width, thickness_units="screen"
+            )
+        else:
+            handle.points, handle.colors = points, colours
+
+    def _mark(self, part: Knots, position: NDArray[np.float32]) -> None:
+        points, handle = position[part.knots], self._points.get(part.name)
+        if handle is not None and len(handle.points) == len(points):
+            handle.points = points
+            return
+        if handle is not None:
+            handle.remove()
+        colour = tuple(_bytes(to_rgb(part.colour)).tolist())
+        size = KNOT * part.size * float(np.median(self.study.result.net.rest_length))
+        self._points[part.name] = self.client.scene.add_point_cloud(
+            f"/{part.name}", points, colour, point_size=size, point_shape="circle", precision="float32"
+        )
+
+    def on_pick(self, picked: Callable[[int | None], None]) -> None:
+        """Call with the knot under a click, None beside the net."""
+
+        @self.client.scene.on_click()
+        def _(event: viser.SceneClickEvent) -> None:
+            picked(self.study.nearest_knot(event.ray_origin, event.ray_direction))
+
+    def on_drag(self, dragged: Callable[[int, Array], None]) -> None:
+        """Call with the gripped knot and where it is drawn to, (3,) m."""
+        self._drag = dragged
+
+    def grip(self, knot: int | None) -> None:
+        """Put arrows on a knot, by which it is dragged; None takes them away."""
+        if self._grip is not None:
+            self._grip.remove()
+            self._grip = None
+        self.gripped = knot
+        if knot is None:
+            return
+        grip = self.client.scene.add_transform_controls(
+            "/grip",
+            scale=GRIP * self._size,
+            disable_rotations=True,
+            position=tuple(self.study.result.position[-1][knot]),
+        )
+        grip.on_update(lambda _: self._drag(knot, np.array(grip.position)))
+        self._grip = grip
