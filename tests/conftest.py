@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import fyke
+from browser import browser, described  # noqa: F401
 
 
 @pytest.fixture(scope="session")
@@ -31,3 +32,7 @@ def framed(nylon):
         return fyke.make_system(net, current=current, water=water, coefficients=coefficients)
 
     return make
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    terminalreporter.write_line(described())

@@ -117,6 +117,21 @@ def report(
     raise typer.Exit(report_result(result, output, positions, overwrite=overwrite))
 
 
+@app.command()
+def live(
+    case: CaseFile,
+    port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port, or the next free one.")] = 8080,
+    host: Annotated[str, typer.Option("--host", help="Address to serve on.")] = "127.0.0.1",
+    open_to_network: Annotated[
+        bool, typer.Option("--open-to-network", help="Allow a host that other machines reach.")
+    ] = False,
+) -> None:
+    """Open a case in the browser and play with it: sliders, motion, knots to drag."""
+    from .live import run_live
+
+    raise typer.Exit(run_live(case, host=host, port=port, open_to_network=open_to_network))
+
+
 def main() -> None:
     """Run the command line."""
     app(prog_name="fyke")

@@ -1,5 +1,6 @@
 """The live page: a net in the browser that answers to sliders."""
 
-from .server import AddressError, serve
+from .server import AddressError, Live, serve
+from .study import RefusedError
 
-__all__ = ["AddressError", "serve"]
+__all__ = ["AddressError", "Live", "RefusedError", "serve"]

@@ -20,7 +20,11 @@ _NO_HOST = (errno.EADDRNOTAVAIL, socket.EAI_NONAME, socket.EAI_FAIL)
 
 
 class AddressError(ValueError):
-    """No port, or a host that was not allowed; the message is one sentence."""
+    """A host that was not allowed or is none of this machine, or no free port; in words for the reader."""
+
+    def __init__(self, found: str, allowed: str, cure: str) -> None:
+        self.found, self.allowed, self.cure = found, allowed, cure
+        super().__init__(f"{found}; allowed: {allowed}; {cure}")
 
 
 class _LocalServer(viser.ViserServer):
@@ -66,7 +70,9 @@ def serve(
     """
     if host not in LOCAL and not open_to_network:
         raise AddressError(
-            f"{host} would let other machines in: add --open-to-network if that is wanted, or leave --host out"
+            f"the host {host}, by which other machines may get in",
+            f"{LOCAL[0]}, this machine only",
+            "leave --host out, or add --open-to-network if that is wanted",
         )
     Study(text, path)  # A case that makes no page is told here, and the kernels are compiled.
     free = free_port(host, port)
@@ -103,7 +109,9 @@ def free_port(host: str, wanted: int) -> int:
                 continue
             except OSError as error:
                 if error.errno in _NO_HOST:
-                    raise AddressError(f"{host} is no address of this machine: {error.strerror}") from None
+                    raise AddressError(
+                        f"the host {host}", "an address of this machine", "leave --host out"
+                    ) from None
                 continue
             return port
-    raise AddressError(f"no free port from {wanted} on: name another one with --port")
+    raise AddressError(f"no free port from {wanted} on", "a free port", "name another one with --port")
