@@ -19,6 +19,9 @@ app = typer.Typer(
 )
 
 CaseFile = Annotated[Path, typer.Argument(metavar="CASE.toml", show_default=False, help="The case file.")]
+ResultPath = Annotated[
+    Path, typer.Argument(metavar="RESULT", show_default=False, help="result.nc or the folder of a run.")
+]
 
 
 def _version(asked: bool) -> None:
@@ -130,6 +133,42 @@ def live(
     from .live import run_live
 
     raise typer.Exit(run_live(case, host=host, port=port, open_to_network=open_to_network))
+
+
+@app.command()
+def export(
+    result: ResultPath,
+    to: Annotated[str, typer.Option("--to", metavar="FORMAT", help="vtkhdf, vtu, csv or gltf.")],
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="PATH", help="What to write; a name beside the result."),
+    ] = None,
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace what is there.")] = False,
+) -> None:
+    """Write a result in the files of other programs."""
+    from .export import export_result
+
+    raise typer.Exit(export_result(result, to, output, overwrite=overwrite))
+
+
+@app.command()
+def movie(
+    result: ResultPath,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="film.mp4 or .gif; movie.mp4 beside the result."),
+    ] = None,
+    fps: Annotated[float, typer.Option("--fps", help="Pictures a second.")] = 25.0,
+    speed: Annotated[float, typer.Option("--speed", help="Of the film, 1 in real time.")] = 1.0,
+    size: Annotated[str, typer.Option("--size", metavar="WxH", help="Width and height.")] = "1280x720",
+    colour: Annotated[str, typer.Option("--colour", help="What bars are coloured by.")] = "tension",
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace a film that is there.")] = False,
+) -> None:
+    """Make a film of a dynamic run."""
+    from .movie import Film, film_result
+
+    film = Film(output=output, fps=fps, speed=speed, size=size, colour=colour, overwrite=overwrite)
+    raise typer.Exit(film_result(result, film))
 
 
 def main() -> None:

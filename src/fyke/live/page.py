@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import threading
 import time
 from collections.abc import Callable
@@ -20,6 +21,8 @@ from .knobs import Knob
 from .scene import Scene
 from .side import colour_scale, numbers_table
 from .study import RefusedError, Study
+
+logger = logging.getLogger(__name__)
 
 # Simulated time between two pictures of a moving net (s).
 TICK = 1.0 / 30.0
@@ -53,9 +56,7 @@ class Page:
         self.study, self._playing = study, False
         self.client.gui.reset()
         self.client.scene.reset()
-        self.client.gui.configure_theme(
-            control_layout="collapsible", control_width="medium", show_logo=False, show_share_button=False
-        )
+        self.client.gui.configure_theme(show_logo=False, show_share_button=False)
         self.scene = Scene(self.client, study)
         self.scene.on_pick(lambda knot: self._wish("pick", partial(self._pick, knot)))
         self.scene.on_drag(lambda knot, place: self._wish("drag", partial(self._drag, knot, place)))
@@ -172,6 +173,10 @@ class Page:
         except CaseError as error:
             problems = (f"{p.where}: {p.found}; allowed: {p.allowed}; {p.cure}" for p in error.problems)
             self._say("files", " ".join(problems))
+        except Exception as error:
+            # The one thread of this page must live on; what went wrong is for whoever started the server.
+            logger.exception("fault on the live page")
+            self._say(place, f"⚠ A fault inside fyke, {type(error).__name__}: {error}")
 
     def _say(self, place: str, text: str) -> None:
         """Say something next to what it is about; "" takes it away."""
@@ -275,10 +280,10 @@ class Page:
             raise RefusedError("⚠ the file is no text in UTF-8, so no case file") from None
 
     def _save_case(self) -> None:
-        self.client.send_file_download("net.toml", self.study.case_text().encode())
+        self.client.send_file_download("net.toml", self.study.case_text().encode(), save_immediately=True)
 
     def _save_picture(self) -> None:
-        self.client.send_file_download("net.png", picture(self.study))
+        self.client.send_file_download("net.png", picture(self.study), save_immediately=True)
 
 
 @styled
