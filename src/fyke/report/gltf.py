@@ -68,8 +68,10 @@ def _solids(result: Result, index: int, colouring: Colouring) -> Iterator[tuple[
             yield part.name, tubes(*ends, radius, _plain(part.colour, len(radius)))
         elif isinstance(part, Bars):
             start, end = position[net.bars[part.bars]].transpose(1, 0, 2)
-            plain = part.colour and _plain(part.colour, len(part.bars))
-            colours = plain if plain is not None else colouring.colours(result, index)[part.bars]
+            if part.colour is None:
+                colours = colouring.colours(result, index)[part.bars]
+            else:
+                colours = _plain(part.colour, len(part.bars))
             if len(part.bars) > TUBES_UP_TO:
                 yield part.name, threads(start, end, colours)
             else:

@@ -54,3 +54,15 @@ def _refuse_others(path: Path, own: Sequence[str]) -> None:
         if not any(there.match(pattern) for pattern in own):
             found = f"the folder holds {there.name}, which an export does not write"
             raise FileExistsError(errno.EEXIST, found, str(path))
+
+
+def reserve(path: Path, size: int) -> None:
+    """Make a file of so many bytes, to be written over; OSError where the disk has not the room.
+
+    For files that HDF5 is to write: it crashes on a disk that runs full.
+    """
+    with path.open("wb") as file:
+        if hasattr(os, "posix_fallocate"):
+            os.posix_fallocate(file.fileno(), 0, size)
+        elif shutil.disk_usage(path.parent).free < size:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))

@@ -1,4 +1,4 @@
-"""What an export says of knots, bars and the whole net: everything in the register of fields, and what follows from it."""
+"""What an export says of knots, bars and the whole net: all that the register of fields has, lengths and strains."""
 
 from __future__ import annotations
 

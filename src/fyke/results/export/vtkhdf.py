@@ -17,11 +17,12 @@ import numpy as np
 from ...solve.result import Result
 from ...version import __version__
 from ..encoding import case_title
-from ..whole import replacing
+from ..whole import replacing, reserve
 from .columns import Column, Values, blocks, columns_of
 
 VERSION = (2, 0)
 VTK_LINE = 3  # the number of a line in VTK's vtkCellType.h
+STRUCTURE = 2**17  # bytes of names, attributes and headers
 FLOAT, INTEGER = np.dtype("<f8"), np.dtype("<i8")
 
 
@@ -34,12 +35,24 @@ def write_vtkhdf(result: Result, path: str | Path) -> Path:
     """
     path = Path(path)
     with replacing(path) as part:
+        reserve(part, _size(result))
         try:
             with h5py.File(part, "w") as file:
                 _write(file, result)
         except RuntimeError as error:  # how h5py tells of a disk that ran full while a file is closed
             raise OSError(str(error)) from error
     return path
+
+
+def _size(result: Result) -> int:
+    """Return about how many bytes the file takes, rather too many."""
+    net, frames = result.net, len(result.time)
+    rows = (("knot", net.knot_count), ("bar", net.bar_count), ("", 1))
+    told = [(column, count) for where, count in rows for column in columns_of(result, where)]
+    numbers = sum((frames if column.moves else 1) * column.components * count for column, count in told)
+    offsets = frames * (len(told) + 8)
+    texts = 64 * net.knot_count + len(result.case_text)
+    return 8 * (numbers + offsets + 3 * frames * net.knot_count + 4 * net.bar_count) + texts + STRUCTURE
 
 
 def _write(file: Any, result: Result) -> None:
