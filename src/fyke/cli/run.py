@@ -165,6 +165,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         current_direction=case.current.velocity,
         audit=audit(system, result),
     )
+    figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings]))
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
