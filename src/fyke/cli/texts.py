@@ -17,6 +17,8 @@ METHODS = {
     "a primal-dual interior point method, SIAM J. Optim. 2(4), 575-601, 1992, on second-order cones scaled as in "
     "Y. Nesterov, M. Todd, Self-scaled barriers and interior-point methods for convex programming, Math. Oper. "
     "Res. 22(1), 1-42, 1997",
+    "auto": "time stepping: whichever needs less work of generalized-alpha (J. Chung, G.M. Hulbert, J. Appl. Mech. 60, "
+    "371-375, 1993) and leapfrog (E. Hairer, C. Lubich, G. Wanner, Acta Numerica 12, 399-450, 2003)",
     "implicit": "time stepping: generalized-alpha of spectral radius 0 at infinite frequency, J. Chung, G.M. Hulbert, "
     "A time integration algorithm for structural dynamics with improved numerical dissipation: the generalized-alpha "
     "method, J. Appl. Mech. 60, 371-375, 1993",
