@@ -33,7 +33,9 @@ def test_released_panel_comes_to_the_static_rest(framed, damping_time):
     """Even without twine damping, because the method keeps nothing of the ringing."""
     system = framed(damping_time=damping_time)
     static = fyke.solve_static(system)
-    result = fyke.simulate(system, duration=3.0, every=0.05, settle=fyke.Settle(force=1e-6))
+    result = fyke.simulate(
+        system, duration=3.0, every=0.05, stepper=fyke.Implicit(), settle=fyke.Settle(force=1e-6)
+    )
     assert (result.outcome.name, result.outcome.solver) == ("converged", "dynamic implicit")
     assert result.outcome.iterations < 80
     assert np.abs(result.position[-1] - static.position[-1]).max() < 1e-6
@@ -115,7 +117,7 @@ def test_energy_never_grows_without_a_current(framed):
     free = system.elements.free[:, None]
     x = np.where(free > 0, system.net.positions * 1.15, system.net.positions)
     start = fyke.State(0.0, x, free * rng.normal(scale=0.1, size=(145, 3)))
-    run = fyke.simulate(system, duration=0.3, every=0.01, start=start)
+    run = fyke.simulate(system, duration=0.3, every=0.01, stepper=fyke.Implicit(), start=start)
     elastic = 0.5 * (run.tension**2 / system.elements.stiffness).sum(axis=1)
     energy = run.kinetic_energy + elastic - (system.elements.weight * run.position).sum(axis=(1, 2))
     assert run.outcome.ok
@@ -125,7 +127,9 @@ def test_energy_never_grows_without_a_current(framed):
 
 def test_frames_do_not_steer_the_steps(framed):
     """Asked times are interpolated, so the motion is the same bits for any output interval."""
-    few, many = (fyke.simulate(framed(), duration=0.4, every=every) for every in (0.4, 0.003))
+    few, many = (
+        fyke.simulate(framed(), duration=0.4, every=every, stepper=fyke.Implicit()) for every in (0.4, 0.003)
+    )
     assert few.position[-1].tobytes() == many.position[-1].tobytes()
     assert few.outcome.iterations == many.outcome.iterations
     # A frame between two steps has tensions like its neighbours, not those of a false stretch of its chords.
@@ -201,5 +205,5 @@ def test_smoothed_complementarity_by_hand():
 def test_a_step_that_cannot_be_found_is_named(framed):
     system = framed()
     broken = replace(system, elements=system.elements._replace(stiffness=system.elements.stiffness * np.nan))
-    outcome = fyke.simulate(broken, duration=0.01).outcome
+    outcome = fyke.simulate(broken, duration=0.01, stepper=fyke.Implicit()).outcome
     assert outcome.name in ("step_too_small", "not_finite") and not outcome.ok

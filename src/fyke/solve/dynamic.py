@@ -13,7 +13,6 @@ from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
 from ..system.system import State, System
 from .auto import Auto, AutoRun
-from .implicit import Implicit
 from .outcome import Outcome, OutcomeName
 from .result import Result
 from .stepper import Count, Memory, Run, Status, Stepper
@@ -121,7 +120,7 @@ def simulate(
     other: those of output_times, and a max_step that is not above 0 or above the duration.
     """
     began = time.perf_counter()
-    method: Stepper = stepper or Implicit()
+    method: Stepper = stepper or Auto()
     if isinstance(method, Auto):
         method = replace(method, duration=duration)
     planned = output_times(duration, every)
