@@ -3,14 +3,15 @@
 Two fields. Far from the solution the steps are those of second-order cones (solve.cone), in which a turning bar
 makes no false stretch. As soon as one bar is within NEAR of its cone's edge, the steps are those of tension and slack
 (solve.central_path), which end quadratically. Both use the full tangent, the water's load included, with one sparse LU
-an iteration and two solves with it. The end is judged on the true residual: the largest unbalanced force on a free
-knot with tensions by the elastic law itself.
+an iteration and two solves with it. A net on which they do not arrive relaxes in time (solve.relaxation). The end is
+judged on the true residual: the largest unbalanced force on a free knot with tensions by the elastic law itself.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +25,7 @@ from .far_field import Far
 from .linear import Factorizer, SingularMatrixError
 from .near_field import Near
 from .outcome import Outcome, OutcomeName
+from .relaxation import relax
 from .result import Result
 from .strain import strain_warnings
 
@@ -38,13 +40,17 @@ NEARER, LEAST_NEAR = 1e-3, 1e-8
 SHORT, SHORT_STEPS = 1e-2, 5
 # A warm start that is not there after so many iterations was none: the solve begins anew.
 WARM_STEPS = 12
+# The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
+PATIENCE = 50
+# Floating parts that are named one by one.
+NAMED_PARTS = 3
 
 
 def solve_static(
     system: System,
     *,
     tolerance: float = 1e-8,
-    max_iterations: int = 100,
+    max_iterations: int = 1000,
     start: State | None = None,
     linear: Factorizer | None = None,
     on_progress: Progress | None = None,
@@ -54,14 +60,18 @@ def solve_static(
     tolerance: N, largest unbalanced force on a free knot; where the rounding of the coordinates alone makes more than
     that, its size is the tolerance and the outcome says so. start: where to begin, the net as built by default; with
     tensions, as Result.state gives them for a net like this one, it is a warm start that takes a few iterations. How
-    it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state.
+    it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state. Held knots
+    stay where the net has them, whatever the start. Raises ValueError for a tolerance that is not above zero, less
+    than one iteration, and a start of another shape or with values that are no numbers.
     """
     began = time.perf_counter()
-    begin = start or system.at_rest()
+    begin = _begin(system, tolerance, max_iterations, start)
     s = Equilibrium(system, begin, linear)
-    loose = loose_knots(system)
-    if loose.size:
+    loose = loose_parts(system)
+    if loose:
         name, message, advice = _floating(system, loose)
+    elif not np.isfinite(s.residual):
+        name, message, advice = _not_finite(s)
     else:
         try:
             name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
@@ -87,22 +97,57 @@ def solve_static(
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 
 
-def loose_knots(system: System) -> NDArray[np.int64]:
-    """Knots that no chain of bars joins to a held knot."""
+def _begin(system: System, tolerance: float, max_iterations: int, start: State | None) -> State:
+    """Return where to begin, with the held knots in their places; raises ValueError for what cannot be meant."""
+    if not (np.isfinite(tolerance) and tolerance > 0.0):
+        raise ValueError(f"tolerance is {tolerance}, a force (N) above zero was expected")
+    if max_iterations < 1:
+        raise ValueError(f"max_iterations is {max_iterations}, at least 1 was expected")
+    if start is None:
+        return system.at_rest()
+    net = system.net
+    wanted: dict[str, tuple[Array, tuple[int, ...]]] = {"position": (start.position, (net.knot_count, 3))}
+    if start.tension is not None:
+        wanted["tension"] = (start.tension, (net.bar_count,))
+    for name, (values, shape) in wanted.items():
+        if np.shape(values) != shape:
+            raise ValueError(f"the start's {name} has the shape {np.shape(values)}, the net's is {shape}")
+        wrong = np.flatnonzero(~np.isfinite(values).reshape(shape[0], -1).all(axis=1))
+        if wrong.size:
+            where = net.labels[wrong[0]] if name == "position" else net.bar_label(int(wrong[0]))
+            raise ValueError(f"the start's {name} at {where} is not a number")
+    return replace(start, position=np.where(net.fixed[:, None], net.positions, start.position))
+
+
+def loose_parts(system: System) -> list[NDArray[np.int64]]:
+    """Parts of the net that no chain of bars joins to a held knot, each the indices of its knots, largest first."""
     el, n = system.elements, system.net.knot_count
     graph = csr_matrix((np.ones(len(el.knot_a)), (el.knot_a, el.knot_b)), shape=(n, n))
-    part = connected_components(graph, directed=False)[1]
-    return np.flatnonzero(~np.isin(part, part[el.free == 0.0]))
+    count, part = connected_components(graph, directed=False)
+    size = np.bincount(part, minlength=count)
+    size[part[el.free == 0.0]] = 0
+    loose = np.flatnonzero(size)
+    return [np.flatnonzero(part == which) for which in loose[np.argsort(-size[loose], kind="stable")]]
 
 
 Verdict = tuple[OutcomeName, str, str]
 
 
-def _floating(system: System, loose: NDArray[np.int64]) -> Verdict:
+def _floating(system: System, parts: list[NDArray[np.int64]]) -> Verdict:
     labels = system.net.labels
+    named = [
+        f"knots {labels[part[0]]} .. {labels[part[-1]]} ({len(part)})"
+        if len(part) > 1
+        else f"knot {labels[part[0]]}"
+        for part in parts[:NAMED_PARTS]
+    ]
+    if len(parts) > NAMED_PARTS:
+        named.append(f"{len(parts) - NAMED_PARTS} more parts")
+    which = named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+    one = len(parts) == 1 and len(parts[0]) == 1
     return (
         "singular",
-        f"knots {labels[loose[0]]} .. {labels[loose[-1]]} ({len(loose)}) are held by nothing, so no equilibrium exists",
+        f"{which} {'is' if one else 'are'} held by nothing, so no equilibrium exists",
         "hold a knot of that part, for example fixed = 'top', or run it as a dynamic case",
     )
 
@@ -110,38 +155,65 @@ def _floating(system: System, loose: NDArray[np.int64]) -> Verdict:
 def _iterate(
     s: Equilibrium, tolerance: float, limit: int, tension: Array | None, on_progress: Progress | None
 ) -> Verdict:
-    """Far field, then near field, until the true residual is below tolerance; a warm start begins in the near one."""
+    """Interior point, and where that does not arrive relaxation in time, until the residual is below tolerance."""
+    begin, first = s.x.copy(), max(s.residual, tolerance)
+
+    def there() -> bool:
+        # The rounding is that of the shape found, which may be much larger than the start.
+        return s.residual <= max(tolerance, s.floor)
+
+    def report() -> None:
+        if on_progress is not None:
+            done = np.log(first / max(s.residual, tolerance)) / max(np.log(first / tolerance), 1.0)
+            on_progress(
+                float(np.clip(done, 0.0, 1.0)), f"iteration {s.iterations}, residual {s.residual:.1e} N"
+            )
+
+    patience = PATIENCE + (0 if tension is None else WARM_STEPS)
+    fault = _interior_point(s, there, min(limit, patience), tension, report)
+    if not there() and s.iterations < limit:
+        s.begin_at(begin)
+        end = relax(s, there, limit, report)
+        if end == "not_finite":
+            return _not_finite(s)
+        if end == "short" and fault is None:
+            return _stalled(s)
+    if there():
+        return (
+            "converged",
+            f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations",
+            "",
+        )
+    return _out_of_iterations(s) if fault is None else _no_inverse(s, fault)
+
+
+def _interior_point(
+    s: Equilibrium, there: Callable[[], bool], limit: int, tension: Array | None, report: Callable[[], None]
+) -> SingularMatrixError | None:
+    """Far field, then near field; a warm start begins in the near one. Returns the fault that ended it, if any."""
     begin, gap, short = s.x.copy(), NEAR, 0
-    first = max(s.residual, tolerance)
     warm = tension is not None
     far, near = Far(s), None if tension is None else Near.warm(s, tension)
-    # The rounding is that of the shape found, which may be much larger than the start.
-    while not s.residual <= max(tolerance, s.floor):
-        if s.iterations >= limit:
-            return _out_of_iterations(s)
+    while not there() and s.iterations < limit:
         if near is None and far.near(gap):
             near = Near.after(far)
         try:
             step = (near or far).step()
         except SingularMatrixError as error:
-            return _no_inverse(s, error)
+            return error
+        report()
         if not np.isfinite(s.residual):
-            return _not_finite(s)
+            return None
         short = short + 1 if step < SHORT else 0
         if short >= SHORT_STEPS and (near is None or gap <= LEAST_NEAR):
-            return _stalled(s)
+            return None
         if short >= SHORT_STEPS or (warm and s.iterations >= WARM_STEPS):
             # The near field jams when it begins too far off: once more from the start, with a longer far field.
             gap = gap if warm else gap * NEARER
             warm, short = False, 0
             s.begin_at(begin)
             far, near = Far(s), None
-        if on_progress is not None:
-            done = np.log(first / max(s.residual, tolerance)) / max(np.log(first / tolerance), 1.0)
-            on_progress(
-                float(np.clip(done, 0.0, 1.0)), f"iteration {s.iterations}, residual {s.residual:.1e} N"
-            )
-    return "converged", f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations", ""
+    return None
 
 
 def _left(s: Equilibrium) -> str:
@@ -152,7 +224,8 @@ def _out_of_iterations(s: Equilibrium) -> Verdict:
     return (
         "iteration_limit",
         f"{s.iterations} iterations were not enough: {_left(s)}",
-        "raise max_iterations, or let a dynamic case with twine damping find the shape",
+        "raise max_iterations; a net held by few knots may turn or flap for ever in this current: a dynamic case shows "
+        "it, more held knots or another start may end it",
     )
 
 
@@ -175,6 +248,6 @@ def _not_finite(s: Equilibrium) -> Verdict:
 def _stalled(s: Equilibrium) -> Verdict:
     return (
         "stalled",
-        f"steps became too short after {s.iterations} iterations: {_left(s)}",
-        "the net may have no stable shape near this start: begin from another one, or run a dynamic case",
+        f"neither interior point nor relaxation in time find a step after {s.iterations} iterations: {_left(s)}",
+        "look for bars much stiffer or shorter than the others, begin from another shape, or run a dynamic case",
     )
