@@ -21,6 +21,8 @@ import numpy as np
 from numba import njit
 
 import fyke
+from fyke.forces.around import BLOCK
+from fyke.forces.team import LINE, run_team
 from fyke.forces.total import total_force, work_arrays
 from fyke.solve.linear import Pattern, factorizer
 from fyke.solve.symplectic import leap
@@ -138,6 +140,33 @@ def force_per_bar(system: fyke.System) -> float:
     return best(lambda: many_forces(*args), 60) / count / system.net.bar_count
 
 
+def leap_seconds(system: fyke.System, start: fyke.State, threads: int, steps: int) -> float:
+    """Seconds of one leapfrog step, without the conversions at the ends of a call."""
+    run = fyke.Symplectic().start(system, start)
+    around, flow = run.around, system.current.velocity(start.position, 0.0)
+    states = np.zeros((2, 2, 3, around.width))
+    states[0, 0], states[0, 1] = around.columns(start.position), around.columns(start.velocity)
+    h, u = 0.7 * run.step, around.columns(flow)
+    law, inverse = np.zeros((2, 1)), np.zeros((6, around.blocks * BLOCK))
+    rates = np.zeros((2, threads * LINE))
+    args = (states, h, steps, u, True, system.elements, around, law, inverse, rates)
+    return best(lambda: run_team(threads, leap, *args)) / (steps + 1)
+
+
+def threads() -> list[Row]:
+    """Leapfrog on two threads against one: whole steps, force evaluation included."""
+    if len(os.sched_getaffinity(0)) < 2:
+        return [("leapfrog 400x400: one thread / two", "not measured: one core", ">= 1.6")]
+    rows = []
+    for meshes, steps, goal in ((100, 200, ""), (400, 20, ">= 1.6")):
+        system = panel_system(meshes)
+        one, two = (leap_seconds(system, system.at_rest(), count, steps) for count in (1, 2))
+        name = f"leapfrog {meshes}x{meshes}"
+        rows.append((f"{name}: steps per second, one thread", f"{1 / one:,.0f}", ""))
+        rows.append((f"{name}: one thread / two", f"{one / two:.2f}", goal))
+    return rows
+
+
 def explicit() -> list[Row]:
     """Force evaluation and the leapfrog step over it."""
     rows = []
@@ -149,15 +178,8 @@ def explicit() -> list[Row]:
         if meshes == 8:
             bare = seconds * panel_system(8).net.bar_count
     system = panel_system(8)
-    el = system.elements
-    moved = fyke.simulate(system, duration=0.3, stepper=fyke.Symplectic(), every=0.3).frame()
-    x, v = moved.position.copy(), moved.velocity.copy()
-    u = system.current.velocity(x, 0.0)
-    rel, g = work_arrays(len(x))
-    work = (rel, g, np.zeros_like(x), np.zeros((len(x), 6)))
-    area = el.knot_drag + 1e-6
-    step = 0.5 * fyke.Symplectic().stability_bound(system, system.at_rest())
-    seconds = best(lambda: leap(x, v, step, 2000, u, el, work, area), 9) / 2000
+    start = fyke.simulate(system, duration=0.3, stepper=fyke.Symplectic(), every=0.3).frame()
+    seconds = leap_seconds(system, fyke.State(0.0, start.position, start.velocity), 1, 2000)
     rows.append(("leapfrog step 8x8 / bare force evaluation", f"{seconds / bare:.2f}", "<= 1.5"))
     rows.append(("leapfrog 8x8: steps per second", f"{1 / seconds:,.0f}", ""))
     return rows
@@ -262,7 +284,7 @@ def machine() -> str:
 def main() -> None:
     """Measure, print and write."""
     rows: list[Row] = []
-    for part in (statics, large_static, explicit, steppers, command_line):
+    for part in (statics, large_static, explicit, threads, steppers, command_line):
         rows += part()
         for row in rows[-1:]:
             print(f".. {part.__name__} done: {row[0]} = {row[1]}", flush=True)
