@@ -28,7 +28,7 @@ _ROPE = "MoorPy MoorProps_default.yaml: density, quasi-static EA/MBL and MBL/d^2
 # Measured where bars ring, at hundreds of hertz and more; slow swings lose more, and so should wet and twisted fibres:
 # a lower bound.
 _STRINGS = (
-    "loss factor 0.020 to 0.024 of bending in plucked nylon strings, dry, some 0.1 to 5 kHz: Woodhouse, Plucked guitar "
+    "loss factor 0.020 to 0.024 of bending in plucked nylon strings, dry: Woodhouse, Plucked guitar "
     "transients, Acta Acustica united with Acustica 90, 945-965, 2004, as a public code repeats it; paper not opened"
 )
 MATERIALS: dict[str, Material] = {
