@@ -27,8 +27,9 @@ from .smooth import smooth_bars
 
 Array = NDArray[np.float64]
 
-# Root of the smoothing's mu over the typical tension.
-SMOOTHING = 0.1
+# Root of the smoothing's mu over the typical tension; when a relaxation of so many iterations has not come to rest, it
+# begins once more with the second.
+SMOOTHING, SMOOTHER_STILL, FIRST_STEPS = 0.1, 0.5, 450
 # Rotation of a bar that a step aims at, and beyond which it is not taken (rad).
 ROTATION, LARGEST_ROTATION = 0.25, 0.5
 # A step is at most GROWTH times the last. Where the net gathers speed it has left a rest that was none: not longer, and
@@ -38,7 +39,7 @@ GROWTH, FASTER, BACK = 2.0, 3.0, 1e-2
 LEAST_CHANGE, LEAST_AGAIN = 0.25, 0.1
 # Least step in units of a bar's length moved by the mean load; and the one from which steps are Newton's, which may go
 # to and fro for ever between two shapes.
-LEAST_STEP, LONGEST_STEP = 1e-12, 1e6
+LEAST_STEP, LONGEST_STEP = 1e-12, 1e3
 # Share of the drag that is the same on all knots; the rest goes with what the water finds on the knot.
 EVEN = 0.1
 # Motions across bars are over no less than this part of their unloaded length.
@@ -91,12 +92,12 @@ def knot_drag(s: Equilibrium) -> Array:
 class Relaxation:
     """Steps in time."""
 
-    def __init__(self, s: Equilibrium) -> None:
+    def __init__(self, s: Equilibrium, smoothing: float = SMOOTHING) -> None:
         self.s, el = s, s.el
         m = len(el.knot_a)
         z = np.zeros
         self.scale = max(typical_tension(el, s.b.load), s.floor, float(np.finfo(float).tiny))
-        self.mu = (SMOOTHING * self.scale) ** 2
+        self.mu = (smoothing * self.scale) ** 2
         # A start that stretches bars does so by mistake.
         f = np.minimum(s.b.f, self.scale)
         self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * self.mu))
@@ -180,7 +181,16 @@ def relax(s: Equilibrium, there: Callable[[], bool], limit: int, report: Callabl
 
     "there", "limit", "not_finite", or "short" when no step is short enough.
     """
-    r = Relaxation(s)
+    begin = s.x.copy()
+    end = _run(Relaxation(s), there, min(limit, s.iterations + FIRST_STEPS), report)
+    if end in {"there", "not_finite"} or s.iterations >= limit:
+        return end
+    s.begin_at(begin)
+    return _run(Relaxation(s, SMOOTHER_STILL), there, limit, report)
+
+
+def _run(r: Relaxation, there: Callable[[], bool], limit: int, report: Callable[[], None]) -> str:
+    s = r.s
     while not there():
         if s.iterations >= limit:
             return "limit"

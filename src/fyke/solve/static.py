@@ -142,7 +142,8 @@ def _floating(system: System, parts: list[NDArray[np.int64]]) -> Verdict:
         for part in parts[:NAMED_PARTS]
     ]
     if len(parts) > NAMED_PARTS:
-        named.append(f"{len(parts) - NAMED_PARTS} more parts")
+        more = len(parts) - NAMED_PARTS
+        named.append(f"{more} more part{'s' if more > 1 else ''}")
     which = named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
     one = len(parts) == 1 and len(parts[0]) == 1
     return (
