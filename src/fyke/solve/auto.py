@@ -56,6 +56,11 @@ class Auto:
     duration: float = np.inf
     name: str = "auto"
 
+    def __post_init__(self) -> None:
+        """Refuse tolerances that no step could meet."""
+        if not (self.rtol >= 0.0 and self.atol > 0.0):
+            raise ValueError(f"rtol {self.rtol:g} must not be below 0 and atol {self.atol:g} must be above 0")
+
     def start(self, system: System, state: State) -> AutoRun:
         """Begin a run."""
         return AutoRun(self, system, state)
