@@ -24,10 +24,12 @@ from .equilibrium import Equilibrium
 from .far_field import Far
 from .linear import Factorizer, SingularMatrixError
 from .near_field import Near
+from .nested import Nested, nested_start
 from .outcome import Outcome, OutcomeName
 from .relaxation import relax
 from .result import Result
 from .strain import strain_warnings
+from .warm_field import Warm
 
 Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
@@ -39,7 +41,7 @@ NEARER, LEAST_NEAR = 1e-3, 1e-8
 # Steps shorter than SHORT, so many in a row, are a stall.
 SHORT, SHORT_STEPS = 1e-2, 5
 # A warm start that is not there after so many iterations was none: the solve begins anew.
-WARM_STEPS = 12
+WARM_STEPS = 25
 # The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
 PATIENCE = 50
 # Floating parts that are named one by one.
@@ -59,25 +61,32 @@ def solve_static(
 
     tolerance: N, largest unbalanced force on a free knot; where the rounding of the coordinates alone makes more than
     that, its size is the tolerance and the outcome says so. start: where to begin, the net as built by default; with
-    tensions, as Result.state gives them for a net like this one, it is a warm start that takes a few iterations. How
-    it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state. Held knots
-    stay where the net has them, whatever the start. Raises ValueError for a tolerance that is not above zero, less
-    than one iteration, and a start of another shape or with values that are no numbers.
+    tensions, as Result.state gives them for a net like this one, it is a warm start that takes a few iterations. A
+    large panel without such a start is begun on grouped meshes (solve.nested): the outcome counts the iterations on
+    the real meshes, its message names the others. How it ended is the result's outcome; a solve that fails or is
+    stopped by Ctrl-C returns the last good state. Held knots stay where the net has them, whatever the start. Raises
+    ValueError for a tolerance that is not above zero, less than one iteration, and a start of another shape or with
+    values that are no numbers.
     """
     began = time.perf_counter()
     begin = _begin(system, tolerance, max_iterations, start)
+    nest = _nested(system, begin, tolerance, on_progress)
+    begin = nest.start if nest else begin
     s = Equilibrium(system, begin, linear)
     loose = loose_parts(system)
     if loose:
         name, message, advice = _floating(system, loose)
     elif not np.isfinite(s.residual):
         name, message, advice = _not_finite(s)
+    elif nest and nest.interrupted:
+        name, message, advice = _interrupted(s)
     else:
         try:
             name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
         except KeyboardInterrupt:
-            name, message = "interrupted", f"stopped by hand after {s.iterations} iterations"
-            advice = "the last shape is saved; run it again"
+            name, message, advice = _interrupted(s)
+    if nest and name == "converged":
+        message += f", begun from {nest.levels}"
     if name == "converged" and s.residual > tolerance:
         message += f"; the asked {tolerance:g} N is below the rounding of the coordinates, {s.floor:.1e} N"
     state = State(0.0, s.good + s.origin, np.zeros_like(s.good))
@@ -117,6 +126,19 @@ def _begin(system: System, tolerance: float, max_iterations: int, start: State |
             where = net.labels[wrong[0]] if name == "position" else net.bar_label(int(wrong[0]))
             raise ValueError(f"the start's {name} at {where} is not a number")
     return replace(start, position=np.where(net.fixed[:, None], net.positions, start.position))
+
+
+def _nested(system: System, begin: State, tolerance: float, on_progress: Progress | None) -> Nested | None:
+    """Warm start of a large panel from grouped meshes, where there is one and none was given."""
+
+    def report(_: float, text: str) -> None:
+        if on_progress is not None:
+            on_progress(0.0, text)
+
+    def solve(coarse: System, at: State, loosely: float) -> Result:
+        return solve_static(coarse, tolerance=loosely, start=at, on_progress=report)
+
+    return nested_start(system, begin, tolerance, solve) if begin.tension is None else None
 
 
 def loose_parts(system: System) -> list[NDArray[np.int64]]:
@@ -191,30 +213,38 @@ def _iterate(
 def _interior_point(
     s: Equilibrium, there: Callable[[], bool], limit: int, tension: Array | None, report: Callable[[], None]
 ) -> SingularMatrixError | None:
-    """Far field, then near field; a warm start begins in the near one. Returns the fault that ended it, if any."""
+    """Far field, then near field; a warm start has a field of its own. Returns the fault that ended it, if any."""
     begin, gap, short = s.x.copy(), NEAR, 0
     warm = tension is not None
-    far, near = Far(s), None if tension is None else Near.warm(s, tension)
+    field: Far | Near | Warm = Far(s) if tension is None else Warm(s, tension)
     while not there() and s.iterations < limit:
-        if near is None and far.near(gap):
-            near = Near.after(far)
+        if isinstance(field, Far) and field.near(gap):
+            field = Near.after(field)
         try:
-            step = (near or far).step()
+            step = field.step()
         except SingularMatrixError as error:
             return error
         report()
         if not np.isfinite(s.residual):
             return None
         short = short + 1 if step < SHORT else 0
-        if short >= SHORT_STEPS and (near is None or gap <= LEAST_NEAR):
+        if short >= SHORT_STEPS and (isinstance(field, Far) or gap <= LEAST_NEAR):
             return None
         if short >= SHORT_STEPS or (warm and s.iterations >= WARM_STEPS):
             # The near field jams when it begins too far off: once more from the start, with a longer far field.
             gap = gap if warm else gap * NEARER
             warm, short = False, 0
             s.begin_at(begin)
-            far, near = Far(s), None
+            field = Far(s)
     return None
+
+
+def _interrupted(s: Equilibrium) -> Verdict:
+    return (
+        "interrupted",
+        f"stopped by hand after {s.iterations} iterations",
+        "the last shape is saved; run it again",
+    )
 
 
 def _left(s: Equilibrium) -> str:
