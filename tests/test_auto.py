@@ -119,13 +119,25 @@ def test_implicit_hands_over_when_it_needs_more_than_planned(framed, monkeypatch
         assert again.position.tobytes() == whole.position.tobytes()
 
 
-def test_a_fault_of_the_implicit_method_is_left_to_leapfrog_for_good(framed, monkeypatch):
+def failing(self, end):
+    return "step_too_small"
+
+
+def too_large(self, end):
+    raise MemoryError
+
+
+@pytest.mark.parametrize("fault", [failing, too_large])
+def test_a_fault_of_the_implicit_method_is_left_to_leapfrog_for_good(framed, monkeypatch, fault):
+    monkeypatch.setattr("fyke.solve.implicit.ImplicitRun.advance", fault)
     system = stiffer(framed(), 100.0)
-    monkeypatch.setattr("fyke.solve.implicit.ImplicitRun.advance", lambda self, end: "step_too_small")
     result = fyke.simulate(system, duration=0.02, every=0.01, stepper=fyke.Auto())
     exact = fyke.simulate(system, duration=0.02, every=0.01, stepper=fyke.Symplectic())
     assert result.outcome.ok and result.outcome.solver.endswith("; symplectic from 0 s")
     assert result.position.tobytes() == exact.position.tobytes()
+    # The same where it is found at the first change.
+    later = fyke.simulate(framed(current=FAST), duration=0.3, every=0.01, stepper=fyke.Auto()).outcome
+    assert later.ok and "; implicit from 0.0" in later.solver and later.solver.count("symplectic from") == 1
 
 
 def test_max_step_holds_for_both(framed):

@@ -157,20 +157,26 @@ class AutoRun:
         self._run.count = count
 
     def advance(self, end: float) -> Status:
-        """Go on towards the time end (s); a fault of the implicit method hands over to leapfrog for good."""
+        """Go on towards the time end (s).
+
+        A fault of the implicit method, or too little memory for it, hands over to leapfrog for good.
+        """
         run = self._run
         if isinstance(run, SymplecticRun):
             if not self._trial_due(run.state.time):
                 # Stop there, so that the time of a change does not depend on the outputs.
                 return run.advance(min(end, self._until) if run.state.time < self._until else end)
             self._take("implicit", run.state, run.count)
-            return self._run.advance(end)
+            return self.advance(end)
         # Outputs within the last step come before a change at its end.
         if run.time < end and self._excess > self._allowed:
             self._leap(run)
             return self._run.advance(end)
         time, count = run.time, replace(run.count)
-        status = run.advance(end)
+        try:
+            status = run.advance(end)
+        except MemoryError:
+            status = "step_too_small"
         if status != "ok":
             self._may_try = False
             self._leap(run)
