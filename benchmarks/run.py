@@ -25,6 +25,7 @@ import fyke
 from fyke.forces.around import BLOCK
 from fyke.forces.team import LINE, run_team
 from fyke.forces.total import total_force, work_arrays
+from fyke.solve.auto import Work
 from fyke.solve.linear import Pattern, factorizer
 from fyke.solve.symplectic import leap
 
@@ -221,6 +222,43 @@ def steppers() -> list[Row]:
     ]
 
 
+def choice() -> list[Row]:
+    """The stepper that chooses against both, and what it takes their work for against what that took."""
+    rows = []
+    for meshes in (8, 32):
+        system, walls = panel_system(meshes), {}
+        for stepper in (fyke.Implicit(), fyke.Symplectic(), fyke.Auto()):
+            repeats = 3 if meshes == 8 else 1
+            runs = [
+                fyke.simulate(system, duration=2.0, stepper=stepper, every=2.0).outcome
+                for _ in range(repeats)
+            ]
+            walls[stepper.name] = min(run.wall_time for run in runs)
+            if stepper.name == "implicit":
+                newtons = runs[0].force_evaluations
+            if stepper.name == "symplectic":
+                steps = runs[0].iterations
+        better = min(walls["implicit"], walls["symplectic"])
+        rows.append(
+            (
+                f"dynamic {meshes}x{meshes}, 2 s: auto / the faster of implicit and leapfrog",
+                f"{walls['auto'] / better:.2f}",
+                "<= 1.5",
+            )
+        )
+        work = Work.on(system)
+        ratio = walls["implicit"] / newtons / (walls["symplectic"] / steps)
+        counted = (work.newton + work.factor) / work.leap
+        rows.append(
+            (
+                f"dynamic {meshes}x{meshes}: Newton iteration / leapfrog step, and as auto counts it",
+                f"{ratio:.0f}, {counted:.0f}",
+                "",
+            )
+        )
+    return rows
+
+
 IMPORTS = """
 import time
 began = time.perf_counter()
@@ -289,7 +327,7 @@ def machine() -> str:
 def main() -> None:
     """Measure, print and write."""
     rows: list[Row] = []
-    for part in (statics, large_static, explicit, threads, steppers, command_line):
+    for part in (statics, large_static, explicit, threads, steppers, choice, command_line):
         rows += part()
         for row in rows[-1:]:
             print(f".. {part.__name__} done: {row[0]} = {row[1]}", flush=True)
