@@ -168,7 +168,7 @@ def test_verner_keeps_the_energy_within_its_tolerance(draw):
 def test_small_swings_lose_with_implicit_and_are_kept_by_newmark(draw):
     """About the rest of a net stretched on its frame, without water, energy above that of the rest.
 
-    Steps that resolve the fastest mode never raise it above the start with generalized-alpha. Steps far beyond it do
+    Steps that resolve the fastest mode never raise it above the start with BDF2. Steps far beyond it do
     once, in their first step, as methods with this damping are known to, and take all of it after that. Newmark keeps
     it with any step.
     """
