@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test bench bench-peers format clean
+.PHONY: demo test test-peers bench bench-peers format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -15,6 +15,9 @@ test: $(VENV)/.installed-test
 	@echo "== types" && $(BIN)/mypy
 	@echo "== import layers" && $(BIN)/lint-imports
 	@echo "== tests" && $(BIN)/python -m pytest
+
+test-peers: $(VENV)/.installed-peers
+	@$(BIN)/python -m pytest -m peers -rs
 
 bench: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/run.py

@@ -18,10 +18,14 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from c_floor import floor_seconds
 from numba import njit
 
 import fyke
+from fyke.forces.around import BLOCK
+from fyke.forces.team import LINE, run_team
 from fyke.forces.total import total_force, work_arrays
+from fyke.solve.auto import Work
 from fyke.solve.linear import Pattern, factorizer
 from fyke.solve.symplectic import leap
 
@@ -138,6 +142,33 @@ def force_per_bar(system: fyke.System) -> float:
     return best(lambda: many_forces(*args), 60) / count / system.net.bar_count
 
 
+def leap_seconds(system: fyke.System, start: fyke.State, threads: int, steps: int) -> float:
+    """Seconds of one leapfrog step, without the conversions at the ends of a call."""
+    run = fyke.Symplectic().start(system, start)
+    around, flow = run.around, system.current.velocity(start.position, 0.0)
+    states = np.zeros((2, 2, 3, around.width))
+    states[0, 0], states[0, 1] = around.columns(start.position), around.columns(start.velocity)
+    h, u = 0.7 * run.step, around.columns(flow)
+    law, inverse = np.zeros((2, 1)), np.zeros((6, around.blocks * BLOCK))
+    rates = np.zeros((2, threads * LINE))
+    args = (states, h, steps, u, True, system.elements, around, law, inverse, rates)
+    return best(lambda: run_team(threads, leap, *args)) / (steps + 1)
+
+
+def threads() -> list[Row]:
+    """Leapfrog on two threads against one: whole steps, force evaluation included."""
+    if len(os.sched_getaffinity(0)) < 2:
+        return [("leapfrog 400x400: one thread / two", "not measured: one core", ">= 1.6")]
+    rows = []
+    for meshes, steps, goal in ((100, 200, ""), (400, 20, ">= 1.6")):
+        system = panel_system(meshes)
+        one, two = (leap_seconds(system, system.at_rest(), count, steps) for count in (1, 2))
+        name = f"leapfrog {meshes}x{meshes}"
+        rows.append((f"{name}: steps per second, one thread", f"{1 / one:,.0f}", ""))
+        rows.append((f"{name}: one thread / two", f"{one / two:.2f}", goal))
+    return rows
+
+
 def explicit() -> list[Row]:
     """Force evaluation and the leapfrog step over it."""
     rows = []
@@ -149,17 +180,14 @@ def explicit() -> list[Row]:
         if meshes == 8:
             bare = seconds * panel_system(8).net.bar_count
     system = panel_system(8)
-    el = system.elements
-    moved = fyke.simulate(system, duration=0.3, stepper=fyke.Symplectic(), every=0.3).frame()
-    x, v = moved.position.copy(), moved.velocity.copy()
-    u = system.current.velocity(x, 0.0)
-    rel, g = work_arrays(len(x))
-    work = (rel, g, np.zeros_like(x), np.zeros((len(x), 6)))
-    area = el.knot_drag + 1e-6
-    step = 0.5 * fyke.Symplectic().stability_bound(system, system.at_rest())
-    seconds = best(lambda: leap(x, v, step, 2000, u, el, work, area), 9) / 2000
+    start = fyke.simulate(system, duration=0.3, stepper=fyke.Symplectic(), every=0.3).frame()
+    seconds = leap_seconds(system, fyke.State(0.0, start.position, start.velocity), 1, 2000)
     rows.append(("leapfrog step 8x8 / bare force evaluation", f"{seconds / bare:.2f}", "<= 1.5"))
     rows.append(("leapfrog 8x8: steps per second", f"{1 / seconds:,.0f}", ""))
+    short = 0.3 * fyke.Symplectic().start(system, system.at_rest()).step
+    floor = floor_seconds(system, fyke.State(0.0, start.position, start.velocity), short)
+    found = "not measured: no C compiler" if floor is None else f"{seconds / floor:.2f}"
+    rows.append(("leapfrog step 8x8 / step of a hand-written C loop", found, "<= 1.3"))
     return rows
 
 
@@ -192,6 +220,43 @@ def steppers() -> list[Row]:
         ("dynamic 8x8, 2 s: Verner / implicit", f"{walls['verner'] / implicit:.0f}", ">= 40"),
         *rows,
     ]
+
+
+def choice() -> list[Row]:
+    """The stepper that chooses against both, and what it takes their work for against what that took."""
+    rows = []
+    for meshes in (8, 32):
+        system, walls = panel_system(meshes), {}
+        for stepper in (fyke.Implicit(), fyke.Symplectic(), fyke.Auto()):
+            repeats = 3 if meshes == 8 else 1
+            runs = [
+                fyke.simulate(system, duration=2.0, stepper=stepper, every=2.0).outcome
+                for _ in range(repeats)
+            ]
+            walls[stepper.name] = min(run.wall_time for run in runs)
+            if stepper.name == "implicit":
+                newtons = runs[0].force_evaluations
+            if stepper.name == "symplectic":
+                steps = runs[0].iterations
+        better = min(walls["implicit"], walls["symplectic"])
+        rows.append(
+            (
+                f"dynamic {meshes}x{meshes}, 2 s: auto / the faster of implicit and leapfrog",
+                f"{walls['auto'] / better:.2f}",
+                "<= 1.5",
+            )
+        )
+        work = Work.on(system)
+        ratio = walls["implicit"] / newtons / (walls["symplectic"] / steps)
+        counted = (work.newton + work.factor) / work.leap
+        rows.append(
+            (
+                f"dynamic {meshes}x{meshes}: Newton iteration / leapfrog step, and as auto counts it",
+                f"{ratio:.0f}, {counted:.0f}",
+                "",
+            )
+        )
+    return rows
 
 
 IMPORTS = """
@@ -262,7 +327,7 @@ def machine() -> str:
 def main() -> None:
     """Measure, print and write."""
     rows: list[Row] = []
-    for part in (statics, large_static, explicit, steppers, command_line):
+    for part in (statics, large_static, explicit, threads, steppers, choice, command_line):
         rows += part()
         for row in rows[-1:]:
             print(f".. {part.__name__} done: {row[0]} = {row[1]}", flush=True)

@@ -295,6 +295,31 @@ SPOILT = {
         'kind = "dynamic"\nduration = 100\n[output]\nevery = "10 us"',
         ("line 24, [output] every", "1e+07 outputs", "1,000,000", "every = 0.1"),
     ),
+    "outputs further apart than the run is long": (
+        'kind = "static"',
+        'kind = "dynamic"\nduration = 1\n[output]\nevery = "2 min"',
+        ("line 24, [output] every", "120 s", "at most the duration of 1 s", "leave every out"),
+    ),
+    "steps longer than the run": (
+        'kind = "static"',
+        'kind = "dynamic"\nduration = 1\nmax_step = 10',
+        ("line 23, [solve] max_step", "10 s", "at most the duration of 1 s", "leave max_step out"),
+    ),
+    "error control of a stepper without one": (
+        'kind = "static"',
+        'kind = "dynamic"\nduration = 1\nstepper = "symplectic"\nrtol = 1e-3',
+        ("line 24, [solve] rtol", "no error control", "auto, implicit, newmark and verner", "leave rtol out"),
+    ),
+    "rest of a static case": (
+        'kind = "static"',
+        'kind = "static"\nsettle_force = 1e-6',
+        ("line 22, [solve] settle_force", "unknown key", "the keys kind", 'with kind = "dynamic"'),
+    ),
+    "a run of no length": (
+        'kind = "static"',
+        'kind = "dynamic"\nduration = "0 s"',
+        ("line 22, [solve] duration", "0 s", "above 0", "a value above 0"),
+    ),
     "measurements that are not there": (
         'kind = "static"',
         'kind = "static"\n[compare]\npositions = "no.csv"',

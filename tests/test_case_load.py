@@ -52,7 +52,10 @@ def test_what_is_left_out_has_the_documented_defaults():
     assert (case.drag.bars.normal, case.drag.bars.tangential, case.drag.knots.drag) == (1.2, 0.1, 1.0)
     assert (case.added_mass.bars, case.added_mass.knots) == (1.0, 0.5)
     assert (case.solve.kind, case.solve.tolerance) == ("static", 1e-8)
-    assert case.twine["a"].damping_time == 0.0 and case.netting["n"].knot_diameter is None
+    assert (
+        case.twines["a"].damping_time == case.twines["a"].loss_factor == 0.0
+        and case.netting["n"].knot_diameter is None
+    )
     # Wilson's T = d^2 C1 strain with C1 = 345.37 MPa is E pi d^2 / 4 strain with E = 439.74 MPa.
     assert case.twines["a"].density == 950.0
     assert case.twines["a"].law.youngs_modulus == pytest.approx(439.74e6, rel=1e-4)

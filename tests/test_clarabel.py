@@ -7,6 +7,8 @@ a second-order cone program whose duals are the tensions. Clarabel solves it wit
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import clarabel
 import numpy as np
 import pytest
@@ -91,6 +93,43 @@ def test_panel_in_a_current(framed, panel):
     """The water's load in fyke's own equilibrium, frozen, makes the same shape again."""
     system = framed(**panel)
     water = fyke.solve_static(system, tolerance=1e-11).water_force[-1]
+    agree(system, system.elements.weight + water)
+
+
+def made_of(net: fyke.Net, weight: float, mixed: bool) -> fyke.Net:
+    """Net with a weight (N) on each of its lowest knots, each bar of one of three twines if mixed."""
+    load = net.load.copy()
+    load[net.positions[:, 2] < net.positions[:, 2].min() + 1e-9, 2] -= weight
+    net = replace(net, load=load)
+    if not mixed:
+        return net
+    soft = fyke.Twine("soft", 1140.0, 2.5e-3, fyke.LinearLaw(4e7))
+    stiff = fyke.Twine("stiff", 975.0, 1e-3, fyke.LinearLaw(4e10))
+    kinds = np.random.default_rng(0).integers(0, 3, net.bar_count)
+    return replace(net, twines=(*net.twines, soft, stiff), twine_of_bar=kinds)
+
+
+CURTAIN = {"fixed": "top"}
+
+
+# A curtain of diamonds in still water would be too flat a minimum: 2e-6 m.
+@pytest.mark.parametrize(
+    ("panel", "current", "weight", "mixed"),
+    [
+        pytest.param(CURTAIN | SQUARE, (0.0, 0.0, 0.0), 0.05, False, id="square curtain in still water"),
+        pytest.param(CURTAIN, (0.5, 0.0, 0.0), 0.05, False, id="curtain in a current"),
+        pytest.param(CURTAIN | SQUARE, (0.3, 0.2, 0.0), 0.05, False, id="square curtain, oblique current"),
+        pytest.param({}, (0.0, 0.0, 0.0), 0.0, True, id="mixed twines in still water"),
+        pytest.param(SQUARE, (0.5, 0.2, 0.0), 0.0, True, id="mixed twines, square, oblique current"),
+        pytest.param(SQUARE | {"fixed": "corners"}, (0.5, 0.0, 0.0), 0.0, True, id="mixed, held at corners"),
+        pytest.param(CURTAIN, (1.0, 0.0, 0.0), 5.0, True, id="curtain of mixed twines, heavy weights"),
+    ],
+)
+def test_curtains_with_weights_and_mixed_twines(framed, panel, current, weight, mixed):
+    """Weights on the lowest knots; moduli from 40 MPa to 40 GPa, bar by bar at random; the water's load frozen."""
+    net = made_of(framed(**panel).net, weight, mixed)
+    system = fyke.make_system(net, current=current)
+    water = fyke.solve_static(system, tolerance=1e-11).water_force[-1] if any(current) else 0.0
     agree(system, system.elements.weight + water)
 
 

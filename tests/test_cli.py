@@ -297,7 +297,7 @@ def test_cite_names_the_sources_of_what_is_used(case):
     )
     case.write_text(text)
     dynamic = " ".join(fyke("cite", case).stdout.split())
-    assert "Hulbert" in dynamic and "Mehrotra" not in dynamic and "material PA: MoorPy" in dynamic
+    assert "Norsett" in dynamic and "Mehrotra" not in dynamic and "material PA: MoorPy" in dynamic
 
 
 def test_version_and_usage():

@@ -2,6 +2,7 @@
 
 import io
 import json
+import resource
 import signal
 import subprocess
 import sys
@@ -89,3 +90,60 @@ def test_run_stopped_before_its_first_output_keeps_the_net_as_built(tmp_path, mo
     result = load(tmp_path / "out" / "result.nc")
     assert result.outcome.name == "interrupted"
     assert (result.position[-1] == result.net.positions).all()
+
+
+FLOOR = {
+    "implicit": 'stepper = "implicit"\nmax_step = 1e-12',
+    "verner": 'stepper = "verner"\nmax_step = 1e-15',
+}
+
+
+@pytest.mark.parametrize("stepper", FLOOR)
+def test_a_step_at_its_floor_is_told_and_the_last_good_state_saved(tmp_path, stepper):
+    text = PANEL.read_text().replace('kind = "static"', f'kind = "dynamic"\nduration = 1\n{FLOOR[stepper]}')
+    (tmp_path / "floor.toml").write_text(text)
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["run", str(tmp_path / "floor.toml"), "-o", str(out), "--no-figures"])
+    assert done.exit_code == 1
+    assert (
+        "step_too_small: the step fell to" in " ".join(done.stderr.split()) and "loosen rtol" in done.stderr
+    )
+    assert json.loads((out / "summary.json").read_text())["outcome"] == "step_too_small"
+    result = load(out / "result.nc")
+    assert result.outcome.name == "step_too_small"
+    assert (result.position[-1] == result.net.positions).all()
+
+
+@pytest.mark.parametrize(("kind", "size"), [("static", 3_000), ("static", 60_000), ("dynamic", 200_000)])
+def test_a_full_disk_is_told_in_one_sentence(tmp_path, kind, size):
+    """No file may grow beyond so many bytes, which stops a write as a full disk does."""
+    (tmp_path / "full.toml").write_text(
+        PANEL.read_text().replace('kind = "static"', 'kind = "dynamic"\nduration = 0.1')
+        if kind == "dynamic"
+        else PANEL.read_text()
+    )
+    command = [sys.executable, "-m", "fyke", "run", "full.toml", "--no-figures"]
+    done = subprocess.run(
+        command,
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
+    )
+    assert done.returncode == 1, done.stderr
+    assert "File too large" in done.stderr and "Traceback" not in done.stderr
+    assert "free the disk" in done.stderr
+    assert not list((tmp_path / "full").glob(".*.part"))
+
+
+def test_more_outputs_than_memory_are_refused_before_anything_is_touched(tmp_path):
+    """A million outputs of 10 000 knots and 20 000 bars, some 1.5 MB each."""
+    text = PANEL.read_text().replace("[8, 8]", "[70, 70]").replace("0.3055", "2.67")
+    text = text.replace('kind = "static"', 'kind = "dynamic"\nduration = 1000\n[output]\nevery = 0.001')
+    (tmp_path / "many.toml").write_text(text)
+    out = tmp_path / "out"
+    done = CliRunner().invoke(app, ["run", str(tmp_path / "many.toml"), "-o", str(out)])
+    assert done.exit_code == 2 and not out.exists()
+    told = " ".join(done.stderr.split())
+    assert "1,000,001 outputs of this net, which take" in told and "GB of" in told and "larger every" in told

@@ -93,7 +93,7 @@ def test_output_times():
     assert output_times(1.0, 0.25).tolist() == [0, 0.25, 0.5, 0.75, 1.0]
     assert output_times(1.0, 0.4).tolist() == [0, 0.4, 0.8, 1.0]
     assert len(output_times(2.0, None)) == 101
-    assert output_times(0.5, 2.0).tolist() == [0, 0.5]
+    assert output_times(0.5, 0.5).tolist() == [0, 0.5]
 
 
 def test_frames_at_the_asked_times_lie_on_the_same_motion(framed):
@@ -214,3 +214,50 @@ def test_held_knots_need_no_mass(nylon):
 def test_tolerances_of_verner_must_be_reachable():
     with pytest.raises(ValueError, match="atol 0 must be above 0"):
         fyke.Verner(atol=0.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"duration": 0.0}, "duration must be a number of seconds above 0, not 0"),
+        ({"duration": np.nan}, "duration must be a number of seconds above 0, not nan"),
+        ({"duration": np.inf}, "duration must be a number of seconds above 0, not inf"),
+        ({"duration": 1.0, "every": -0.1}, "every must be a number of seconds above 0, not -0.1"),
+        ({"duration": 1.0, "every": 2.0}, "every 2 s is longer than the duration of 1 s"),
+        ({"duration": 1.0, "every": 1e-8}, r"makes 1e\+08 frames"),
+        ({"duration": 1.0, "stepper": fyke.Verner(max_step=2.0)}, "at most the duration of 1 s, not 2 s"),
+        ({"duration": 1.0, "stepper": fyke.Auto(max_step=-1e-3)}, "max_step must be above 0"),
+    ],
+)
+def test_times_that_contradict_each_other_are_refused(framed, options, words):
+    with pytest.raises(ValueError, match=words):
+        fyke.simulate(framed(), **options)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (fyke.Settle, "needs force"),
+        (lambda: fyke.Settle(force=0.0), "force of Settle must be above 0"),
+        (lambda: fyke.Settle(energy=np.nan), "energy of Settle must be above 0"),
+        (lambda: fyke.Auto(rtol=-1e-3), "rtol -0.001 must not be below 0"),
+        (lambda: fyke.Auto(atol=0.0), "atol 0 must be above 0"),
+    ],
+)
+def test_limits_that_nothing_meets_are_refused(make, words):
+    with pytest.raises(ValueError, match=words):
+        make()
+
+
+@pytest.mark.parametrize("stepper", [fyke.Implicit(atol=1e-17, rtol=0.0), fyke.Verner(max_step=1e-14)])
+def test_a_step_at_its_floor_ends_the_run_with_the_last_good_state(framed, stepper):
+    """From a state in motion: what was reached between two outputs is the last frame."""
+    start = fyke.simulate(framed(), duration=0.05, stepper=fyke.Symplectic()).state()
+    start = replace(start, tension=None)
+    result = fyke.simulate(framed(), duration=0.01, stepper=stepper, start=start)
+    outcome = result.outcome
+    assert outcome.name == "step_too_small" and not outcome.ok
+    assert "the step fell to" in outcome.message and "fastest knot" in outcome.message
+    assert "loosen rtol and atol" in outcome.advice
+    assert result.time[-1] == outcome.time
+    assert all(np.all(np.isfinite(getattr(result, name))) for name in ("position", "velocity", "tension"))

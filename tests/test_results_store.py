@@ -19,6 +19,7 @@ from fyke.netting.panel import panel
 from fyke.netting.twine import Twine
 from fyke.results import ResultError, load, save
 from fyke.results.fields import FRAME_FIELDS, NET_FIELDS
+from fyke.results.layout import Content, _upper_size
 from fyke.solve.outcome import Outcome
 from fyke.solve.result import Result
 
@@ -254,3 +255,15 @@ def test_a_stranger_can_check_the_balance_of_a_solved_panel(tmp_path):
         np.testing.assert_allclose(left[:, 2], left[:, 2].mean(), atol=1e-7)
         total = last.hydrodynamic_force.values - [0.0, 0.0, float(last.weight_in_water)]
         np.testing.assert_allclose(last.support_reaction, total, atol=1e-6)
+
+
+@pytest.mark.parametrize("meshes", [(1, 1), (8, 8), (60, 40)])
+def test_the_room_that_is_reserved_is_never_too_small_nor_far_too_large(tmp_path, meshes):
+    net = panel(TWINE, mesh="diamond", meshes=meshes, bar_length=0.03, size=tuple(0.04 * n for n in meshes))
+    system = fyke.make_system(net)
+    result = fyke.solve_static(system, max_iterations=1)
+    save(result, tmp_path / "result.nc")
+    attributes = {"outcome": "stalled", "outcome_message": result.outcome.message}
+    room = _upper_size(Content(net, 0.0, "", attributes), 1)
+    size = (tmp_path / "result.nc").stat().st_size
+    assert size <= room <= size + 100_000 + 0.5 * size

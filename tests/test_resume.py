@@ -16,7 +16,7 @@ import fyke
 from fyke.results import CheckpointError, load, load_checkpoint, save_checkpoint
 
 CASE = (Path(__file__).parent.parent / "examples" / "panel_release.toml").read_text()
-STEPPERS = [fyke.Implicit(), fyke.Newmark(), fyke.Verner(), fyke.Symplectic()]
+STEPPERS = [fyke.Implicit(), fyke.Newmark(), fyke.Verner(), fyke.Symplectic(), fyke.Auto()]
 ARRAYS = ("time", "position", "velocity", "tension", "water_force", "kinetic_energy", "unbalanced_force")
 
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from .netting.panel import panel
     from .netting.twine import Twine
     from .results import load, save
+    from .solve.auto import Auto
     from .solve.dynamic import Settle, simulate
     from .solve.implicit import Implicit, Newmark
     from .solve.modes import Modes, modes
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 # Names are fetched when first used, so that `import fyke` and `fyke --help` are quick.
 _HOME = {
+    "Auto": "solve.auto",
     "Case": "case",
     "CaseError": "case",
     "Coefficients": "system.build",
@@ -62,6 +64,7 @@ _HOME = {
 }
 
 __all__ = [
+    "Auto",
     "Case",
     "CaseError",
     "Coefficients",

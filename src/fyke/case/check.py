@@ -86,6 +86,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     for index, panel in parts.panels.items():
         yield from _frame(("gear", index), panel, parts.nettings.get(panel.netting))
     yield from _outputs(parts)
+    yield from _stepper(parts)
     yield from _compare(parts)
 
 
@@ -204,10 +205,39 @@ def _panel_names(parts: Parts) -> Iterator[Finding]:
 def _outputs(parts: Parts) -> Iterator[Finding]:
     solve = _valid(DynamicSolve, parts.raw.get("solve"))
     output = _valid(Output, parts.raw.get("output"))
-    if solve and output and output.every and solve.duration / output.every > MOST_OUTPUTS:
-        found = f"{output.every:g} s, which makes {solve.duration / output.every:.3g} outputs"
+    if not (solve and output and output.every):
+        return
+    where, found = ("output", "every"), f"{output.every:g} s"
+    if solve.duration / output.every > MOST_OUTPUTS:
+        found += f", which makes {solve.duration / output.every:.3g} outputs"
         allowed = f"at most {MOST_OUTPUTS:,} outputs over the duration of {solve.duration:g} s"
-        yield ("output", "every"), found, allowed, f"write every = {solve.duration / 1000:g} or more"
+        yield where, found, allowed, f"write every = {solve.duration / 1000:g} or more"
+    elif output.every > solve.duration:
+        allowed = f"at most the duration of {solve.duration:g} s"
+        yield where, found, allowed, "make every smaller or the duration longer, or leave every out"
+
+
+# Keys of [solve] that steppers have no use for.
+_WITHOUT = {"symplectic": ("rtol", "atol")}
+
+
+def _stepper(parts: Parts) -> Iterator[Finding]:
+    solve = _valid(DynamicSolve, parts.raw.get("solve"))
+    if solve is None:
+        return
+    for key in _WITHOUT.get(solve.stepper, ()):
+        if getattr(solve, key) is not None:
+            found = f'{key} with stepper = "{solve.stepper}", which has no error control'
+            cure = f'leave {key} out; max_step shortens its steps, stepper = "verner" keeps to {key}'
+            yield ("solve", key), found, "rtol and atol with auto, implicit, newmark and verner only", cure
+    if solve.max_step is not None and solve.max_step > solve.duration:
+        allowed = f"at most the duration of {solve.duration:g} s"
+        yield (
+            ("solve", "max_step"),
+            f"{solve.max_step:g} s",
+            allowed,
+            "leave max_step out, or check its unit",
+        )
 
 
 def _compare(parts: Parts) -> Iterator[Finding]:

@@ -99,17 +99,17 @@ class DynamicSolve(Table):
     kind: Literal["dynamic"] = Field(description="static or dynamic", examples=["dynamic"])
     tolerance: Force = Field(default=1e-8, description="N, of static cases; settle_force is for dynamic ones")
     duration: Time = Field(description="s, simulated time", examples=[2.0])
-    stepper: Literal["implicit", "newmark", "verner", "symplectic"] = Field(
-        default="implicit", description="time stepping method"
+    stepper: Literal["auto", "implicit", "newmark", "verner", "symplectic"] = Field(
+        default="auto", description="time stepping method"
     )
     rtol: Tolerance | None = Field(
         default=None,
-        description="relative error per step, of adaptive steppers; implicit, newmark 1e-2, verner 1e-4",
+        description="relative error per step, of adaptive steppers; auto, implicit, newmark 1e-2, verner 1e-4",
         examples=[1e-3],
     )
     atol: Tolerance | None = Field(
         default=None,
-        description="absolute error per step (m, m/s), of adaptive steppers; implicit, newmark 1e-6, verner 1e-7",
+        description="absolute error per step (m, m/s), of adaptive steppers; auto, implicit, newmark 1e-6, verner 1e-7",
         examples=[1e-6],
     )
     max_step: Time | None = Field(default=None, description="s, largest time step", examples=["1 ms"])

@@ -26,7 +26,7 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "linear", youngs_modulus = "1.0 GPa" }
 # law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
 # law = { kind = "table", strain = [0.0, 0.05, 0.1], tension = [0.0, 20.0, 60.0] }   # N
-# damping_time = "0.1 ms"            # Kelvin-Voigt retardation time, 0 by default
+# damping_time = "20 us"             # Kelvin-Voigt retardation time; by default from the loss factor of the material
 
 [netting.main]                       # any number of nettings, each with a name
 twine = "main"
@@ -60,7 +60,7 @@ kind = "static"                      # static | dynamic
 # tolerance = 1e-8                   # N, largest unbalanced force on a free knot
 # For kind = "dynamic":
 # duration = 2.0                     # s
-# stepper = "implicit"               # implicit | newmark | verner | symplectic
+# stepper = "auto"                   # auto | implicit | newmark | verner | symplectic
 # rtol = 1e-2
 # atol = 1e-6
 # max_step = "1 ms"

@@ -79,8 +79,11 @@ class TwineSpec(Table):
     law: ElasticSpec | None = Field(
         default=None, description="elastic law instead of youngs_modulus: linear, power or table"
     )
-    damping_time: Annotated[float, Quantity(TIME, 0.0, 1e7)] = Field(
-        default=0.0, description="s, retardation time of Kelvin-Voigt damping", examples=["1 ms"]
+    damping_time: Annotated[float, Quantity(TIME, 0.0, 1e7)] | None = Field(
+        default=None,
+        description="s, retardation time of Kelvin-Voigt damping; 0 for none, "
+        "from the material's loss factor by default",
+        examples=["20 us"],
     )
 
     @property
@@ -101,6 +104,27 @@ class TwineSpec(Table):
         return None if modulus is None else LinearLaw(modulus)
 
     @property
+    def resolved_loss_factor(self) -> float:
+        """Loss factor of the material where no damping_time is given; 0 where the material has none."""
+        if self.damping_time is not None or self.material is None:
+            return 0.0
+        return MATERIALS[self.material].loss_factor or 0.0
+
+    @property
+    def damping_source(self) -> str:
+        """Where the damping comes from, in words."""
+        if self.damping_time is not None:
+            return "as given"
+        if self.material is None:
+            return "none given"
+        factor = self.resolved_loss_factor
+        return (
+            f"loss factor {factor:g} of {self.material}"
+            if factor
+            else f"no loss factor of {self.material} found"
+        )
+
+    @property
     def takes_from_material(self) -> bool:
         """Whether density or modulus is the material's."""
         return self.density is None or (self.youngs_modulus is None and self.law is None)
@@ -110,4 +134,12 @@ class TwineSpec(Table):
         density, law = self.resolved_density, self.resolved_law
         if density is None or law is None:
             raise ValueError(f"twine '{name}' has no density or no elastic law")
-        return Twine(name, density, self.diameter, law, self.damping_time, self.material or "")
+        return Twine(
+            name,
+            density,
+            self.diameter,
+            law,
+            damping_time=self.damping_time or 0.0,
+            material=self.material or "",
+            loss_factor=self.resolved_loss_factor,
+        )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Annotated
 
@@ -55,12 +56,25 @@ def run(
     json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
 ) -> None:
     """Solve a case and write its result, tables and figures."""
+    began = time.perf_counter()
     from .run import Wishes, run_case
 
     wishes = Wishes(
         output=output, figures=figures, overwrite=overwrite, resume=resume, quiet=quiet, json=json
     )
-    raise typer.Exit(run_case(case, wishes))
+    raise typer.Exit(run_case(case, wishes, began))
+
+
+@app.command()
+def modes(
+    case: CaseFile,
+    count: Annotated[int, typer.Option("-n", "--count", metavar="N", min=1, help="How many modes.")] = 6,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+) -> None:
+    """Find the static equilibrium and the slowest natural periods about it."""
+    from .modes import show_modes
+
+    raise typer.Exit(show_modes(case, count, json=json))
 
 
 @app.command()

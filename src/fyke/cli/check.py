@@ -11,8 +11,9 @@ import numpy as np
 from ..case import Case, CaseError, load_case
 from ..netting.lattice import flat_strain
 from ..netting.measures import measure_net, measure_panel
-from ..netting.net import Net, Panel
+from ..netting.net import Panel
 from ..system.build import build_net, build_system
+from ..system.system import System
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -50,7 +51,7 @@ def judge(case: Case) -> dict[str, Any]:
 
     mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each, lengths in m, areas in m2,
     mass_per_area in kg/m2, rtex in tex; strain: largest of the flat panel, negative where all bars are slack;
-    reynolds: speed of the current times twine diameter over viscosity.
+    reynolds: speed of the current times twine diameter over viscosity; damping_time: longest retardation time (s).
     """
     net = build_net(case)
     system = build_system(net, case)
@@ -61,13 +62,14 @@ def judge(case: Case) -> dict[str, Any]:
         **asdict(measures),
         "weight_in_water": system.weight_in_water,
         "current": list(case.current.velocity),
-        "panels": [_panel(case, net, panel) for panel in net.panels],
+        "panels": [_panel(case, system, panel) for panel in net.panels],
         "warnings": list(case.warnings),
         "case_sha256": case.sha256,
     }
 
 
-def _panel(case: Case, net: Net, panel: Panel) -> dict[str, Any]:
+def _panel(case: Case, system: System, panel: Panel) -> dict[str, Any]:
+    net, twine = system.net, case.twine[panel.twine]
     spec = next(one for one in case.gear if one.name == panel.name)
     mesh = case.netting[spec.netting].mesh
     speed = float(np.linalg.norm(case.current.velocity))
@@ -80,7 +82,9 @@ def _panel(case: Case, net: Net, panel: Panel) -> dict[str, Any]:
         **asdict(measure_panel(net, panel)),
         "fixed": int(np.count_nonzero(net.fixed[slice(*panel.knots)])),
         "strain": max(flat_strain(mesh, panel.meshes, panel.bar_length, panel.size)),
-        "reynolds": speed * case.twine[panel.twine].diameter / case.water.kinematic_viscosity,
+        "reynolds": speed * twine.diameter / case.water.kinematic_viscosity,
+        "damping_time": float(system.elements.damping_time[slice(*panel.bars)].max()),
+        "damping_source": twine.damping_source,
     }
 
 
@@ -120,4 +124,5 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
         ("fixed knots", f"{panel['fixed']}"),
         ("bar strain when flat", f"{panel['strain'] * 100:.2f} % ({state})"),
         ("Reynolds number", f"{panel['reynolds']:.0f} at the bars"),
+        ("twine damping", f"{quantity(panel['damping_time'] * 1e6, 'us', 3)}, {panel['damping_source']}"),
     ]

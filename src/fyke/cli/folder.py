@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 import tempfile
 from pathlib import Path
 
 from ..case import Case
 from ..case.errors import CaseError, Problem
 from ..forces.frame import Frame
-from ..results import CheckpointError, ResultError, frames_of, load, load_checkpoint
+from ..netting.net import Net
+from ..results import CheckpointError, ResultError, frame_bytes, frames_of, load, load_checkpoint
 from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
@@ -22,6 +25,7 @@ PICTURES = (
     "histories",
     "comparison",
 )
+GB = 1e9
 _ALLOWED = "a folder that can be written and holds no result"
 
 
@@ -45,6 +49,27 @@ def claim(folder: Path, *, overwrite: bool) -> None:
     except OSError as error:
         cure = "choose another folder with -o DIR, or give yourself the right to write there"
         raise _refusal(folder, error.strerror or str(error), cure) from None
+
+
+def make_sure_of_room(folder: Path, net: Net, frames: int) -> None:
+    """Raise CaseError where so many frames of a net fit neither the disk nor the memory, which keeps them all."""
+    there = next((one for one in (folder, *folder.absolute().parents) if one.is_dir()), Path())
+    # While it grows the file is there twice.
+    needed = {"disk": 2.0 * frame_bytes(net) * frames, "memory": 1.0 * frame_bytes(net) * frames}
+    room = {"disk": float(shutil.disk_usage(there).free), "memory": _memory()}
+    for what, size in needed.items():
+        if frames > 1 and size > room[what]:
+            found = f"{frames:,} outputs of this net, which take {size / GB:.3g} GB of {what}"
+            allowed = f"at most the {room[what] / GB:.3g} GB that are there"
+            raise CaseError([Problem("[output] every", found, allowed, "write a larger every")])
+
+
+def _memory() -> float:
+    """Memory of the machine, bytes; infinite where that is not told."""
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE")) * float(os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):
+        return float("inf")
 
 
 def _clear(folder: Path) -> None:

@@ -6,7 +6,6 @@ import math
 import os
 import sys
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,13 +27,14 @@ from ..results import (
     write_summary,
     write_tables,
 )
+from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
 from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.system import System
-from .folder import BARS, CHECKPOINT, KNOTS, RESULT, SUMMARY, claim, stopped
+from .folder import BARS, CHECKPOINT, KNOTS, RESULT, SUMMARY, claim, make_sure_of_room, stopped
 from .progress import progress_bar
 from .show import (
     DONE,
@@ -49,6 +49,9 @@ from .show import (
     stdout,
     vector,
 )
+
+# Parts of the time below this (s) are kept in summary.json and not shown.
+LEAST_SHOWN = 1e-3
 
 Stopped = tuple[Checkpoint, list[Frame]]
 
@@ -70,40 +73,64 @@ class Wishes:
         return not (self.quiet or self.json)
 
 
-def run_case(file: Path, wishes: Wishes) -> int:
-    """Run a case file and return the exit code."""
+def run_case(file: Path, wishes: Wishes, began: float | None = None) -> int:
+    """Run a case file and return the exit code; began: time.perf_counter() at the start of the command."""
     folder = wishes.output or Path(file.stem)
-    try:
-        case = load_case(file)
-        if wishes.talk and needs_compiling(case):
-            stderr().print("First run of this kind: compiling the kernels, some ten seconds, once.")
-        system = build_system(build_net(case), case)
-        if case.positions_file:
-            # A fault of this file is told before the solve, and before an old result is taken away.
-            compare(_as_built(case, system), case.positions_file)
-        resume = stopped(folder, case) if wishes.resume else None
-        if resume is None:
-            claim(folder, overwrite=wishes.overwrite)
-        return _run(case, system, folder, wishes, resume)
-    except (CaseError, MeasurementError) as error:
-        print_problems(error.problems)
-    except BrokenPipeError:
-        # Who read the output has gone, as `head` does; the files are written. Python would complain again at its end.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
-    except OSError as error:
-        found, cure = error.strerror or str(error), "free the disk, or choose another folder with -o DIR"
-        print_problems([Problem(f"output folder {folder}", found, "a folder that can be written", cure)])
-    return WRONG_INPUT
+    with Clock("starting", began) as clock:
+        try:
+            with timed("building"):
+                case, system, resume = _prepare(file, folder, wishes)
+        except (CaseError, MeasurementError) as error:
+            print_problems(error.problems)
+            return WRONG_INPUT
+        try:
+            return _run(case, system, folder, wishes, resume, clock)
+        except BrokenPipeError:
+            # Who read the output has gone, as `head` does; the files are written. Python would complain at its end.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+            return DONE
+        except OSError as error:
+            print_problems([_cannot_write(folder, error)])
+            return NOT_CONVERGED
 
 
-def _run(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None) -> int:
-    result = _solve(case, system, folder, wishes, resume)
-    comparison = compare(result, case.positions_file) if case.positions_file else None
-    figures = _figures_of(case, system, result, comparison)
-    write_tables(result, folder)
+def _prepare(file: Path, folder: Path, wishes: Wishes) -> tuple[Case, System, Stopped | None]:
+    """Read and build a case and make its folder ready; CaseError and MeasurementError for a wrong input."""
+    case = load_case(file)
+    if wishes.talk and needs_compiling(case):
+        stderr().print("First run of this kind: compiling the kernels, some ten seconds, once.")
+    system = build_system(build_net(case), case)
+    if case.positions_file:
+        # A fault of this file is told before the solve, and before an old result is taken away.
+        compare(_as_built(case, system), case.positions_file)
+    resume = stopped(folder, case) if wishes.resume else None
+    if resume is None:
+        make_sure_of_room(folder, system.net, planned_frames(case))
+        claim(folder, overwrite=wishes.overwrite)
+    return case, system, resume
+
+
+def _cannot_write(folder: Path, error: OSError) -> Problem:
+    found = error.strerror or str(error)
+    cure = "free the disk, or choose another folder with -o DIR; what was written before is still there"
+    return Problem(f"output folder {folder}", found, "a disk with room for the result", cure)
+
+
+def _run(
+    case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None, clock: Clock
+) -> int:
+    with timed("forces"):
+        result = _solve(case, system, folder, wishes, resume)
+    with timed("accounts"):
+        comparison = compare(result, case.positions_file) if case.positions_file else None
+        figures = _figures_of(case, system, result, comparison)
+    with timed("writing"):
+        write_tables(result, folder)
+        write_summary(figures, folder)
+    with timed("figures"):
+        pictures = _draw(case, result, folder, comparison) if wishes.figures else []
+    figures["time_by_part"] = clock.seconds
     write_summary(figures, folder)
-    pictures = _draw(case, result, folder, comparison) if wishes.figures else []
     if wishes.json:
         print_json(figures)
     elif wishes.talk:
@@ -117,8 +144,16 @@ def _run(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopp
 def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None) -> Result:
     """Solve a case, with every output and a checkpoint on disk as it comes, and leave the whole result in the file."""
     file, times, weight = folder / RESULT, planned_frames(case), system.weight_in_water
-    keep = partial(save_checkpoint, folder / CHECKPOINT, case_sha256=case.sha256)
     frames = resume[1] if resume else ()
+
+    def append(frame: Frame) -> None:
+        with timed("writing"):
+            recorder.append(frame)
+
+    def keep(checkpoint: Checkpoint) -> None:
+        with timed("writing"):
+            save_checkpoint(folder / CHECKPOINT, checkpoint, case_sha256=case.sha256)
+
     with (
         Recorder(
             file, system.net, times=times, weight_in_water=weight, case_text=case.text, frames=frames
@@ -127,14 +162,15 @@ def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Sto
     ):
         try:
             result = solve_case(
-                system, case, on_frame=recorder.append, on_progress=report, on_checkpoint=keep, resume=resume
+                system, case, on_frame=append, on_progress=report, on_checkpoint=keep, resume=resume
             )
         except KeyboardInterrupt:
             recorder.close()
             result = load(file) if file.is_file() else _as_built(case, system)
             save(result, file)
         else:
-            recorder.finish(result)
+            with timed("writing"):
+                recorder.finish(result)
     if result.outcome.name != "interrupted":
         (folder / CHECKPOINT).unlink(missing_ok=True)
     return result
@@ -165,6 +201,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         current_direction=case.current.velocity,
         audit=audit(system, result),
     )
+    figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings]))
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
@@ -206,16 +243,30 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *_account_rows(figures["audit"]),
-        ("iterations", f"{figures['iterations']} ({methods})"),
-        ("time", quantity(figures["wall_time"], "s", 3)),
+        ("solver", methods),
+        *_work_rows(figures),
+        ("time of the solve", quantity(figures["wall_time"], "s", 3)),
+        ("time by part", _parts(figures["time_by_part"])),
     ]
-    if figures["time"] is not None:
-        rows.insert(-1, ("simulated time", quantity(figures["time"], "s")))
     if "measured_rms" in figures:
         apart = f"RMS {figures['measured_rms']:.3g} m over {figures['measured_knots']} knots"
         worst = f"largest {figures['measured_largest']:.3g} m at {figures['measured_largest_knot']}"
         rows.append(("against measured", f"{apart}, {worst}"))
     return rows
+
+
+def _work_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
+    factors = f"{figures['factorizations']} factorizations"
+    if figures["time"] is None:
+        return [("iterations", f"{figures['iterations']}, {factors}")]
+    return [
+        ("simulated time", quantity(figures["time"], "s")),
+        ("steps", f"{figures['iterations']} accepted, {figures['rejected']} rejected, {factors}"),
+    ]
+
+
+def _parts(seconds: dict[str, float]) -> str:
+    return ", ".join(f"{part} {quantity(one, 's', 2)}" for part, one in seconds.items() if one >= LEAST_SHOWN)
 
 
 def _account_rows(accounts: dict[str, Any]) -> list[tuple[str, str]]:

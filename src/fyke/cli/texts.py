@@ -18,9 +18,11 @@ METHODS = {
     "a primal-dual interior point method, SIAM J. Optim. 2(4), 575-601, 1992, on second-order cones scaled as in "
     "Y. Nesterov, M. Todd, Self-scaled barriers and interior-point methods for convex programming, Math. Oper. "
     "Res. 22(1), 1-42, 1997",
-    "implicit": "time stepping: generalized-alpha of spectral radius 0 at infinite frequency, J. Chung, G.M. Hulbert, "
-    "A time integration algorithm for structural dynamics with improved numerical dissipation: the generalized-alpha "
-    "method, J. Appl. Mech. 60, 371-375, 1993",
+    "auto": "time stepping: whichever needs less work of BDF2 (E. Hairer, S.P. Norsett, G. Wanner, Solving ordinary "
+    "differential equations I, section III.5, 1993) and leapfrog (E. Hairer, C. Lubich, "
+    "G. Wanner, Acta Numerica 12, 399-450, 2003)",
+    "implicit": "time stepping: backward differences of second order with variable steps (BDF2), E. Hairer, S.P. "
+    "Norsett, G. Wanner, Solving ordinary differential equations I, section III.5, 1993",
     "newmark": "time stepping: average acceleration (beta 1/4, gamma 1/2), N.M. Newmark, A method of computation for "
     "structural dynamics, J. Eng. Mech. Div. ASCE 85, 67-94, 1959",
     "verner": "time stepping: Runge-Kutta pair of orders 5 and 6, J.H. Verner, Explicit Runge-Kutta methods with "

@@ -11,6 +11,8 @@ OPTIONS: dict[str, Any] = {
     "cache": True,
     "fastmath": {"contract", "arcp", "nsz", "reassoc"},
     "error_model": "numpy",
+    # Kernels touch no Python object: other threads go on meanwhile.
+    "nogil": True,
 }
 
 

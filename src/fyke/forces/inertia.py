@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from .around import ADDED, FREE, MASS, differences, extent
 from .compiled import OPTIONS
 from .total import TINY_LENGTH
 
@@ -55,6 +56,57 @@ def invert_masses(mass, free):
         mass[i, 3] = s * c1
         mass[i, 4] = s * c2
         mass[i, 5] = s * (xy * xz - xx * yz)
+
+
+@njit(**OPTIONS)
+def block_inverse_masses(block, x, v, around, g, inverse):
+    """Inverse masses of a block of knots into inverse (6, blocks x BLOCK) 1/kg, zero for held knots.
+
+    x, v: (3, width) as forces.around lays them out; g: work array. Returns the square of the largest rate (1/s2) at
+    which one of their bars with added mass turns or stretches.
+    """
+    here, size = extent(block, around)
+    own = around.knots_row[block]
+    for i in range(size):
+        g[0, i] = g[1, i] = g[2, i] = around.knots[own, MASS, i]
+        g[3, i] = g[4, i] = g[5, i] = g[12, i] = 0.0
+    for slot in range(around.first[block], around.first[block + 1]):
+        differences(slot, here, size, x, around, g, 6)
+        differences(slot, here, size, v, around, g, 9)
+        bar = around.bars_row[slot]
+        for i in range(size):
+            dx, dy, dz, p, q, r = g[6, i], g[7, i], g[8, i], g[9, i], g[10, i], g[11, i]
+            m = around.bars[bar, ADDED, i]
+            inverse_square = 1.0 / max(dx * dx + dy * dy + dz * dz, TINY_LENGTH)
+            c = m * inverse_square
+            rate = (p * p + q * q + r * r) * inverse_square if m > 0.0 else 0.0
+            g[12, i] = max(g[12, i], rate)
+            g[0, i] += m - c * dx * dx
+            g[1, i] += m - c * dy * dy
+            g[2, i] += m - c * dz * dz
+            g[3, i] -= c * dx * dy
+            g[4, i] -= c * dx * dz
+            g[5, i] -= c * dy * dz
+    fastest = 0.0
+    for i in range(size):
+        fastest = max(fastest, g[12, i])
+        g[12, i] = 0.0
+    low = here - np.uint64(around.margin)
+    for i in range(size):
+        xx, yy, zz, xy, xz, yz = g[0, i], g[1, i], g[2, i], g[3, i], g[4, i], g[5, i]
+        c0 = yy * zz - yz * yz
+        c1 = xz * yz - xy * zz
+        c2 = xy * yz - xz * yy
+        determinant = xx * c0 + xy * c1 + xz * c2
+        # A held knot may have no mass.
+        s = 1.0 / determinant if around.knots[own, FREE, i] > 0.0 else 0.0
+        inverse[0, low + i] = s * c0
+        inverse[1, low + i] = s * (xx * zz - xz * xz)
+        inverse[2, low + i] = s * (xx * yy - xy * xy)
+        inverse[3, low + i] = s * c1
+        inverse[4, low + i] = s * c2
+        inverse[5, low + i] = s * (xy * xz - xx * yz)
+    return fastest
 
 
 @njit(**OPTIONS)

@@ -11,22 +11,30 @@ from .elastic import ElasticLaw
 
 @dataclass(frozen=True)
 class Material:
-    """A fibre: density (kg/m3), modulus (Pa, None where no source gives one) and where both were read."""
+    """A fibre: density (kg/m3), modulus (Pa), loss factor tan delta, and where they were read; None: no source."""
 
     name: str
     density: float
     youngs_modulus: float | None
     source: str
+    loss_factor: float | None = None
+    loss_source: str = "no loss factor found of this fibre as twine, at the frequencies at which bars ring"
 
 
 # Moduli of rope-laid fibre follow from E = (EA/MBL)(MBL/d^2) 4/pi with the rope properties listed by MoorPy
 # (MoorProps_default.yaml): PA 5 x 207e6, PES 14 x 308e6, UHMWPE 56 x 580e6 Pa. Published moduli of netting
 # spread from 40 MPa to 2 GPa, so a study should give its own.
 _ROPE = "MoorPy MoorProps_default.yaml: density, quasi-static EA/MBL and MBL/d^2"
+# Measured where bars ring, at hundreds of hertz and more; slow swings lose more, and so should wet and twisted fibres:
+# a lower bound.
+_STRINGS = (
+    "loss factor 0.020 to 0.024 of bending in plucked nylon strings, dry: Woodhouse, Plucked guitar "
+    "transients, Acta Acustica united with Acustica 90, 945-965, 2004, as a public code repeats it; paper not opened"
+)
 MATERIALS: dict[str, Material] = {
     m.name: m
     for m in (
-        Material("PA", 1140.0, 5 * 207e6 * 4 / np.pi, _ROPE),
+        Material("PA", 1140.0, 5 * 207e6 * 4 / np.pi, _ROPE, 0.02, _STRINGS),
         Material("PES", 1380.0, 14 * 308e6 * 4 / np.pi, _ROPE),
         Material("UHMWPE", 975.0, 56 * 580e6 * 4 / np.pi, _ROPE),
         Material(
@@ -46,7 +54,9 @@ class Twine:
     """A twine as the bars of the netting need it.
 
     density: of the twine (kg/m3); diameter: m; damping_time: retardation time of the Kelvin-Voigt damping (s),
-    tension = T(strain) + damping_time dT/dt, zero by default and never letting a bar push.
+    tension = T(strain) + damping_time dT/dt, zero by default and never letting a bar push; loss_factor: tan delta,
+    which adds to the retardation time of each bar as much as makes this loss at the bar's ringing, see
+    system.build.ringing.
     """
 
     name: str
@@ -55,6 +65,7 @@ class Twine:
     law: ElasticLaw
     damping_time: float = 0.0
     material: str = ""
+    loss_factor: float = 0.0
 
     @property
     def area(self) -> float:

@@ -4,6 +4,7 @@ from .audit import Audit, EnergyBudget, audit
 from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkpoint
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
+from .layout import frame_bytes
 from .recorder import Recorder
 from .store import ResultError, load, save
 from .tables import write_summary, write_tables
@@ -18,6 +19,7 @@ __all__ = [
     "ResultError",
     "audit",
     "compare",
+    "frame_bytes",
     "frames_of",
     "load",
     "load_checkpoint",

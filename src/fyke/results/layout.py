@@ -6,7 +6,10 @@ into their places afterwards, without a change to any of the structures by which
 
 from __future__ import annotations
 
+import errno
+import os
 import platform
+import shutil
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -26,6 +29,8 @@ from .fields import AXES, FRAME_FIELDS, NET_FIELDS, SCHEMA, WEIGHT, Field
 
 Array = NDArray[np.float64]
 FLOAT = np.dtype("<f8")
+# Sizes in a file, generous: of a knot with its label, of a bar, and of everything else, twines and panels included.
+BYTES_OF_KNOT, BYTES_OF_BAR, BYTES_BESIDES = 130, 40, 100_000
 RUNNING = {"outcome": "running"}
 
 
@@ -46,6 +51,11 @@ def frame_shape(field: Field, net: Net) -> tuple[int, ...]:
     """Return the shape of a frame's variable at one time."""
     sizes = {"knot": net.knot_count, "bar": net.bar_count, "xyz": 3}
     return tuple(sizes[name] for name in field.dimensions[1:])
+
+
+def frame_bytes(net: Net) -> int:
+    """Return the size of one frame in memory and in a file."""
+    return FLOAT.itemsize * sum(int(np.prod(frame_shape(field, net))) for field in FRAME_FIELDS)
 
 
 def check_finite(field: Field, values: Array, net: Net, time: Array | None = None) -> None:
@@ -120,12 +130,35 @@ def _add_net(file: Any, net: Net) -> None:
             _add(file, field, data=values)
 
 
+def _upper_size(content: Content, count: int) -> int:
+    """Bytes that a file for `count` frames takes at most."""
+    net = content.net
+    texts = len(content.case_text) + sum(len(str(value)) for value in content.outcome.values())
+    return (
+        count * frame_bytes(net)
+        + BYTES_OF_KNOT * net.knot_count
+        + BYTES_OF_BAR * net.bar_count
+        + 4 * texts
+        + BYTES_BESIDES
+    )
+
+
+def _reserve(path: Path, size: int) -> None:
+    """Raise OSError where the disk has no room for so many bytes: HDF5 crashes Python when a write fails."""
+    with path.open("wb") as file:
+        if hasattr(os, "posix_fallocate"):
+            os.posix_fallocate(file.fileno(), 0, size)
+        elif shutil.disk_usage(path.parent).free < size:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
+
+
 def lay_out(path: Path, content: Content, count: int) -> None:
     """Write a result file at `path` with room for `count` frames, at least one, all still missing (NaN).
 
-    ValueError if the net holds a number that is not finite.
+    ValueError if the net holds a number that is not finite; OSError where the disk has no room.
     """
     net = content.net
+    _reserve(path, _upper_size(content, count))
     with h5netcdf.File(str(path), "w") as file:
         file.dimensions = {"time": count, "knot": net.knot_count, "bar": net.bar_count, "xyz": 3, "end": 2}
         file.attrs.update(_attributes(content))

@@ -19,6 +19,7 @@ from .layout import (
     RUNNING,
     Content,
     check_finite,
+    frame_bytes,
     frame_offsets,
     frame_shape,
     lay_out,
@@ -68,8 +69,7 @@ class Recorder:
         self._file: FileIO | None = None
         self._in_place = False
         self._offsets: dict[str, int] = {}
-        frame_bytes = FLOAT.itemsize * sum(int(np.prod(frame_shape(field, net))) for field in FRAME_FIELDS)
-        self._make_room(max(1, len(frames), min(times, FIRST_ROOM // frame_bytes)))
+        self._make_room(max(1, len(frames), min(times, FIRST_ROOM // frame_bytes(net))))
         for frame in frames:
             self._write(frame)
         if frames:

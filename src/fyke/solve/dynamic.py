@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
 from ..system.system import State, System
-from .implicit import Implicit
+from .auto import Auto, AutoRun
 from .outcome import Outcome, OutcomeName
 from .result import Result
 from .stepper import Count, Memory, Run, Status, Stepper
@@ -21,16 +21,30 @@ from .strain import strain_warnings
 Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
 
+# All frames of a run are kept in memory; more than this is a slip of the pen.
+MOST_FRAMES = 10_000_000
+
 
 @dataclass(frozen=True)
 class Settle:
     """When a net has come to rest: every criterion given holds at an output time.
 
-    force: largest unbalanced force on a free knot, N; energy: kinetic energy, J.
+    force: largest unbalanced force on a free knot, N; energy: kinetic energy, J. ValueError without either and for one
+    that is not above 0.
     """
 
     force: float | None = None
     energy: float | None = None
+
+    def __post_init__(self) -> None:
+        """Refuse what is met at once or never."""
+        if self.force is None and self.energy is None:
+            raise ValueError("Settle needs force (N) or energy (J), or a run would end at once")
+        for name, limit in (("force", self.force), ("energy", self.energy)):
+            if limit is not None and not limit > 0.0:
+                raise ValueError(
+                    f"{name} of Settle must be above 0, not {limit:g}: nothing ever falls below it"
+                )
 
     def reached(self, frame: Frame) -> bool:
         """Whether the frame is at rest."""
@@ -61,7 +75,20 @@ class Checkpoint:
 
 
 def output_times(duration: float, every: float | None) -> np.ndarray:
-    """Times (s) of the frames: 0, every, 2 every .. and the end; a hundred intervals by default."""
+    """Times (s) of the frames: 0, every, 2 every .. and the end; a hundred intervals by default.
+
+    ValueError for a duration or interval that is not a number above 0, an interval above the duration and more than
+    MOST_FRAMES frames.
+    """
+    for name, value in (("duration", duration), ("every", every)):
+        if value is not None and not (np.isfinite(value) and value > 0.0):
+            raise ValueError(f"{name} must be a number of seconds above 0, not {value:g}")
+    if every is not None and every > duration:
+        raise ValueError(f"every {every:g} s is longer than the duration of {duration:g} s")
+    if every is not None and duration / every > MOST_FRAMES:
+        raise ValueError(
+            f"every {every:g} s makes {duration / every:.3g} frames in {duration:g} s; {MOST_FRAMES:.0e} are the most"
+        )
     interval = every or duration / 100.0
     whole = int(np.floor(duration / interval * (1.0 + 1e-12)))
     times = interval * np.arange(whole + 1)
@@ -89,16 +116,21 @@ def simulate(
     duration, every: s, every is the interval of the frames; settle: stop as soon as the net is at rest; on_frame is
     handed every frame as it comes. Ctrl-C ends the run with the frames so far and the outcome "interrupted".
     on_checkpoint gets a checkpoint after every frame; resume: such a checkpoint of a run with the same arguments and
-    the frames up to it, from which the run goes on with the same bits.
+    the frames up to it, from which the run goes on with the same bits. ValueError for times that contradict each
+    other: those of output_times, and a max_step that is not above 0 or above the duration.
     """
     began = time.perf_counter()
-    method: Stepper = stepper or Implicit()
+    method: Stepper = stepper or Auto()
+    if isinstance(method, Auto):
+        method = replace(method, duration=duration)
+    planned = output_times(duration, every)
+    _check_max_step(method, duration)
     state = start or system.at_rest()
     state = State(state.time, state.position, state.velocity)
     run = method.start(system, state)
     warnings = _step_warnings(system, state, method)
     frames: list[Frame] = []
-    times = state.time + output_times(duration, every)
+    times = state.time + planned
     if resume is not None:
         frames += resume[1]
         run.restore(resume[0].memory)
@@ -114,15 +146,16 @@ def simulate(
     try:
         verdict = _loop(system, run, times[len(frames) :], settle, keep, on_progress)
     except KeyboardInterrupt:
-        if not frames or run.state.time > frames[-1].time:
-            frames.append(evaluate(system, run.state))
-            if on_frame is not None:
-                on_frame(frames[-1])
         verdict = (
             "interrupted",
             f"stopped by hand at {run.state.time:.4g} s",
             "the frames so far are saved; fyke run --resume goes on from there",
         )
+    if not frames or run.state.time > frames[-1].time:
+        # Stopped between two outputs: the last good state is kept.
+        frames.append(evaluate(system, run.state))
+        if on_frame is not None:
+            on_frame(frames[-1])
     seconds = time.perf_counter() - began
     outcome = _outcome(
         run, method, verdict, seconds, frames[-1], warnings + strain_warnings(system.net, frames)
@@ -134,11 +167,12 @@ def _outcome(
     run: Run, method: Stepper, verdict: Verdict, seconds: float, last: Frame, warnings: tuple[str, ...]
 ) -> Outcome:
     name, message, advice = verdict
+    story = f": {run.story()}" if isinstance(run, AutoRun) else ""
     return Outcome(
         name=name,
         message=message,
         advice=advice,
-        solver=f"dynamic {method.name}",
+        solver=f"dynamic {method.name}{story}",
         linear_solver=run.linear_solver,
         iterations=run.count.steps,
         factorizations=run.count.factorizations,
@@ -149,6 +183,14 @@ def _outcome(
         force_evaluations=run.count.evaluations,
         warnings=warnings,
     )
+
+
+def _check_max_step(method: Stepper, duration: float) -> None:
+    longest = method.max_step
+    if longest is not None and not 0.0 < longest <= duration:
+        raise ValueError(
+            f"max_step must be above 0 and at most the duration of {duration:g} s, not {longest:g} s"
+        )
 
 
 def _step_warnings(system: System, state: State, method: Stepper) -> tuple[str, ...]:

@@ -10,9 +10,9 @@ from .equilibrium import Equilibrium, typical_tension
 from .linear import Solve
 
 # Fraction of the way to the edge of the cone that one step may take.
-TO_EDGE = 0.98
+TO_EDGE = 0.99
 # Largest rotation of a bar in one step (rad): a turning bar makes no false stretch here, but the water's load turns.
-LARGEST_TURN = 0.25
+LARGEST_TURN = 0.35
 # Strain that every bar is at least allowed at the start.
 START_STRAIN = 0.05
 # Least centring, (mu_affine / mu)^3 being Mehrotra's.

@@ -1,11 +1,10 @@
-"""Implicit time stepping on smoothed tension and slack: generalized-alpha, the production method, and Newmark's.
+"""Implicit time stepping on smoothed tension and slack: BDF2, the production method, and Newmark's.
 
 Unknowns of a step are the accelerations and, for every bar, tension and slack (solve.smooth), so that a bar may turn
 and snap taut within one step; Newton's method with the full tangent finds them:
-    M (c_m a_new + (1 - c_m) a_old) = F(x_new, v_new),
-    x_new = x + h v + h^2 ((1/2 - beta) a_old + beta a_new),  v_new = v + h ((1 - gamma) a_old + gamma a_new).
-The step follows an estimate of the local error, h^2 (beta - 1/6)(a_new - a_old). Twine damps in a step when it was taut
-at its beginning.
+    M a_new = F(x_new, v_new),   x_new = x* + c0 a_new,   v_new = v* + c1 a_new,
+where the method gives x*, v*, c0, c1 from the last steps. The step follows an estimate of the local error,
+C h^2 (a_new - a_old). Twine damps in a step when it was taut at its beginning.
 """
 
 from __future__ import annotations
@@ -29,23 +28,30 @@ from .stepper import Count, Memory, Status, fluid_velocity
 Array = NDArray[np.float64]
 
 
-class Scheme(NamedTuple):
-    """Parameters c_m = 1 - alpha_m, gamma, beta of a one-step method with alpha_f = 0."""
+class Past(NamedTuple):
+    """Last step: its length h (s), positions x and velocities v (n, 3) before it and now, acceleration a now."""
 
-    cm: float
-    gamma: float
-    beta: float
+    h: float
+    before: tuple[Array, Array]
+    now: tuple[Array, Array]
+    a: Array
 
 
-GENERALIZED_ALPHA = Scheme(2.0, 1.5, 1.0)
-AVERAGE_ACCELERATION = Scheme(1.0, 0.5, 0.25)
+class Ahead(NamedTuple):
+    """What a step makes of the acceleration to be found: x = x0 + c0 a, v = v0 + c1 a; its local error constant."""
+
+    c0: float
+    c1: float
+    x0: Array
+    v0: Array
+    error: float
 
 
 # Size (N) of the smoothing, over the typical tension: T w = (SMOOTHING x tension)^2.
 SMOOTHING = 1e-5
 # Newton ends when the motion it still makes is below so much of the error tolerance, and r below so much of the
-# typical tension.
-MOTION_LEFT, FORCE_LEFT = 0.1, 0.1
+# typical tension, both root mean squares: a few bars of a large net may still be found in the next step.
+MOTION_LEFT, FORCE_LEFT = 0.1, 0.3
 MOST_NEWTON = 25
 # Rotation of a bar in one Newton step (rad).
 LARGEST_ROTATION = 0.5
@@ -53,6 +59,9 @@ LARGEST_ROTATION = 0.5
 # first Newton steps.
 SECOND_ORDER, SECOND_ORDER_STEPS = 0.02, 6
 GROWTH, SHRINK, SAFETY = 2.0, 0.3, 0.9
+# Allowed error, over the tolerance, of knots that drift with slack twine, where errors add up. Elsewhere taut bars
+# take errors back.
+DRIFT = 0.02
 # A step is taken again when its error is above so much of the tolerance.
 WORST_ERROR = 2.0
 # Shortest step, over the time reached or a second; first step (s) of a net on which no force acts.
@@ -62,14 +71,14 @@ TINY = 1e-300
 
 @dataclass(frozen=True)
 class Implicit:
-    """Generalized-alpha of spectral radius 0 at infinite frequency: second order, L-stable, no step to choose.
+    """Backward differences of second order with variable steps (BDF2): L-stable, no step to choose.
 
-    What rings faster than the step can follow is gone in one step: the shape is followed, the ringing of taut bars is
-    not. J. Chung, G.M. Hulbert, A time integration algorithm for structural dynamics with improved numerical
-    dissipation: the generalized-alpha method, J. Appl. Mech. 60, 371-375, 1993.
+    What rings faster than the step can follow is gone in a few steps: the shape is followed, the ringing of taut bars
+    is not. E. Hairer, S.P. Norsett, G. Wanner, Solving ordinary differential equations I, section III.5, 1993.
 
-    Options: rtol of the shortest bar plus atol (m) is the allowed error of the positions in one step; max_step in s;
-    fixed: always take max_step, for studies of order.
+    Options: rtol of the shortest bar plus atol (m) is the allowed error of the positions in one step, DRIFT times that
+    where twine is slack; max_step in s; fixed: always take max_step, for studies of order. Raises ValueError for
+    options that contradict each other.
     """
 
     rtol: float = 1e-2
@@ -77,7 +86,25 @@ class Implicit:
     max_step: float | None = None
     fixed: bool = False
     name: str = "implicit"
-    scheme: Scheme = GENERALIZED_ALPHA
+
+    def __post_init__(self) -> None:
+        """Refuse tolerances that no step could meet and steps that are none."""
+        if not (self.rtol >= 0.0 and self.atol >= 0.0 and self.rtol + self.atol > 0.0):
+            raise ValueError(
+                f"rtol {self.rtol:g} and atol {self.atol:g} must not be below 0, and one of them must be above 0"
+            )
+        if self.max_step is not None and not self.max_step > 0.0:
+            raise ValueError(f"max_step {self.max_step:g} s must be above 0")
+        if self.fixed and self.max_step is None:
+            raise ValueError("fixed steps need max_step, the length of the step in s")
+
+    def ahead(self, h: float, past: Past) -> Ahead:
+        """Return what a step h makes of its acceleration."""
+        (x, v), w = past.now, h / past.h
+        b, k = h * (1.0 + w) / (1.0 + 2.0 * w), w * w / (1.0 + 2.0 * w)
+        v0 = v + k * (v - past.before[1])
+        error = (1.0 + w) ** 2 / (6.0 * w * (1.0 + 2.0 * w))
+        return Ahead(b * b, b, x + k * (x - past.before[0]) + b * v0, v0, error)
 
     def start(self, system: System, state: State) -> ImplicitRun:
         """Begin a run."""
@@ -99,15 +126,19 @@ class Newmark(Implicit):
     """
 
     name: str = "newmark"
-    scheme: Scheme = AVERAGE_ACCELERATION
+
+    def ahead(self, h: float, past: Past) -> Ahead:
+        """Return what a step h makes of its acceleration."""
+        (x, v), a = past.now, past.a
+        return Ahead(0.25 * h * h, 0.5 * h, x + h * v + 0.25 * h * h * a, v + 0.5 * h * a, 1.0 / 12.0)
 
 
 class ImplicitRun:
-    """Generalized-alpha at work."""
+    """An implicit method at work."""
 
     def __init__(self, method: Implicit, system: System, state: State) -> None:
         self.method, self.system, self.state = method, system, state
-        self.count, self.scheme = Count(), method.scheme
+        self.count = Count()
         el = self.el = system.elements
         n, m = system.net.knot_count, system.net.bar_count
         self.pattern = Pattern.of(el)
@@ -126,6 +157,7 @@ class ImplicitRun:
         self.a = self._acceleration()
         water_load(self.u - self.v, el, self.t, self.length, self.load)
         self.tension_scale = max(typical_tension(el, self.load), TINY)
+        self.error = 0.0
         self.mu = (SMOOTHING * self.tension_scale) ** 2
         self.T = 0.5 * (self.f + np.sqrt(self.f * self.f + 4.0 * self.mu))
         self.w = self.T - self.f
@@ -134,9 +166,9 @@ class ImplicitRun:
         self.step = self._first_step()
 
     def _first_step(self) -> float:
-        """Step (s) in which the largest acceleration moves a knot by the tolerance."""
+        """Step (s) in which the largest acceleration moves a knot by what a drifting one may err."""
         method, largest = self.method, float(np.abs(self.a).max(initial=0.0))
-        step = float(np.sqrt(self.tolerance / largest)) if largest > 0.0 else FIRST_STEP
+        step = float(np.sqrt(2.0 * DRIFT * self.tolerance / largest)) if largest > 0.0 else FIRST_STEP
         if method.max_step is None:
             return step
         return method.max_step if method.fixed else min(step, method.max_step)
@@ -191,15 +223,13 @@ class ImplicitRun:
             h = self.step if method.max_step is None else min(self.step, method.max_step)
             if h < LEAST_STEP * max(self.time, 1.0):
                 return "step_too_small"
-            if not self._newton(h):
+            if not self._arrives(h):
                 self.count.rejected += 1
                 self.step = SHRINK * h
                 continue
-            jump = (self.an - self.a)[self.pattern.free]
-            size = float(np.sqrt((jump**2).sum() / max(len(jump), 1)))
-            err = h * h * abs(self.scheme.beta - 1.0 / 6.0) * size
-            factor = SAFETY * (self.tolerance / max(err, TINY)) ** (1.0 / 3.0)
-            if err > WORST_ERROR * self.tolerance and not method.fixed:
+            err = self.error * h * h * self._jump() / self.tolerance
+            factor = SAFETY * max(err, TINY) ** (-1.0 / 3.0)
+            if err > WORST_ERROR and not method.fixed:
                 self.count.rejected += 1
                 self.step = h * max(SHRINK, factor)
                 continue
@@ -212,45 +242,64 @@ class ImplicitRun:
             self.step = h * (GROWTH if method.fixed else min(GROWTH, max(SHRINK, factor)))
             return "ok"
 
+    def _arrives(self, h: float) -> bool:
+        """Whether Newton finds the step."""
+        try:
+            return self._newton(h)
+        except SingularMatrixError:
+            return False
+
+    def _jump(self) -> float:
+        """Change of the accelerations, root mean square (m/s2): of all knots, or of drifting ones over DRIFT."""
+        free, el = self.pattern.free, self.el
+        drifting = np.ones(len(self.x), dtype=bool)
+        taut = (self.T > self.w) | (self.Tn > self.wn)
+        drifting[el.knot_a[taut]] = drifting[el.knot_b[taut]] = False
+        square = ((self.an - self.a)[free] ** 2).sum(axis=1)
+        alone = square[drifting[free]]
+        everywhere = square.sum() / max(len(square), 1)
+        return float(np.sqrt(max(everywhere, alone.sum() / max(len(alone), 1) / DRIFT**2)))
+
+    def _past(self, h: float) -> Past:
+        """Return the last step, or before the first one what the acceleration makes of a step h back."""
+        last = self.time - self.before[0]
+        if last > 0.0:
+            return Past(last, (self.before[1], self.before[2]), (self.x, self.v), self.a)
+        back = self.x - h * self.v + 0.5 * h * h * self.a, self.v - h * self.a
+        return Past(h, back, (self.x, self.v), self.a)
+
     def _newton(self, h: float) -> bool:
         """Find a, T, w of a step h from the last ones; False when Newton does not get there."""
         # A step depends on the state alone, so that a run may be taken up again at any.
         self.linear.renew()
-        el, c0, c1 = self.el, self.scheme.beta * h * h, self.scheme.gamma * h
-        self.an[:], self.Tn[:], self.wn[:] = self.a, self.T, self.w
-        x0 = self.x + h * self.v + h * h * (0.5 - self.scheme.beta) * self.a
-        v0 = self.v + h * (1.0 - self.scheme.gamma) * self.a
+        el = self.el
+        c0, c1, x0, v0, self.error = self.method.ahead(h, self._past(h))
+        # The last accelerations are no guess: where bars have just snapped they are large and gone.
+        self.an[:], self.Tn[:], self.wn[:] = 0.0, self.T, self.w
         for iteration in range(MOST_NEWTON):
             self.xn, self.vn = x0 + c0 * self.an, v0 + c1 * self.an
-            phi, r = self._residual()
-            try:
-                solve = self._factor(c0, c1)
-            except SingularMatrixError:
-                return False
+            self._residual()
+            solve = self._factor(c0, c1)
             turn = self._direction(solve, self.r)
             if iteration < SECOND_ORDER_STEPS:
                 second_order(self.xn, self.dx, self.de, 1.0, el, self.length, self.k, self.r, self.bent)
                 if np.abs(self.bent - self.r).max(initial=0.0) > SECOND_ORDER * self.tension_scale:
                     self.c += self.p * (self.bent - self.r)
                     turn = self._direction(solve, self.bent)
-            moved = float(np.abs(self.dx).max(initial=0.0))
+            moved, r = _rms(self.dx, len(self.pattern.free)), _rms(self.r, len(self.r))
             if not np.isfinite(moved):
                 return False
             part = LARGEST_ROTATION / max(turn, LARGEST_ROTATION)
             self.an += (part / c0) * self.dx
             self.Tn += part * self.dT
             self.wn += part * self.dw
-            if (
-                part == 1.0
-                and moved < MOTION_LEFT * self.tolerance
-                and max(phi, r) < FORCE_LEFT * self.tension_scale
-            ):
+            if part == 1.0 and moved < MOTION_LEFT * self.tolerance and r < FORCE_LEFT * self.tension_scale:
                 self.xn, self.vn = x0 + c0 * self.an, v0 + c1 * self.an
                 return True
         return False
 
-    def _residual(self) -> tuple[float, float]:
-        """Geometry, law, loads and masses of the present guess; largest violations of the bars' equations (N)."""
+    def _residual(self) -> None:
+        """Geometry, law, loads and masses of the present guess; residuals of the bars' equations (N)."""
         el = self.el
         bar_geometry(self.xn, el, self.t, self.length)
         np.subtract(self.length, el.rest_length, out=self.de)
@@ -263,18 +312,17 @@ class ImplicitRun:
         self.count.evaluations += 1
         self.rel = self.u - self.vn
         water_load(self.rel, el, self.t, self.length, self.load)
-        phi, r = smooth_bars(self.Tn, self.wn, self.f, self.mu, self.p, self.r, self.c)
-        return float(phi), float(r)
+        smooth_bars(self.Tn, self.wn, self.f, self.mu, self.p, self.r, self.c)
 
     def _factor(self, c0: float, c1: float) -> Solve:
         """Factorize the matrix of the step for accelerations over c0, so that it solves for motions."""
-        p, cm = self.pattern, self.scheme.cm / c0
+        p = self.pattern
         if self.el.damped:
             # The slope of the law, what the rate of elongation adds included.
             self.k += self.damp * (c1 / c0)
         np.multiply(self.p, self.k, out=self.along)
         assemble_step(
-            self.rel, self.el, self.t, self.length, self.Tn, self.along, 1.0, c1 / c0, cm, self.mass,
+            self.rel, self.el, self.t, self.length, self.Tn, self.along, 1.0, c1 / c0, 1.0 / c0, self.mass,
             p.start, p.stride, p.diagonal, self.data,
         )  # fmt: skip
         self.count.factorizations += 1
@@ -284,18 +332,7 @@ class ImplicitRun:
         """Motion dx and the changes of the bars for the residual r; returns the largest rotation."""
         p, el = self.pattern, self.el
         step_right_side(
-            self.load,
-            self.Tn,
-            self.c,
-            self.an,
-            self.a,
-            self.scheme.cm,
-            self.mass,
-            el,
-            self.t,
-            p.free,
-            self.total,
-            self.right,
+            self.load, self.Tn, self.c, self.an, self.mass, el, self.t, p.free, self.total, self.right
         )
         self.dx[p.free] = solve(self.right).reshape(-1, 3)
         return float(
@@ -322,3 +359,8 @@ class ImplicitRun:
         self.x, self.v = memory["position"][1], memory["velocity"][1]
         self.a, self.T, self.w = (memory[name].copy() for name in ("acceleration", "tension", "slack"))
         self.state = self._between(float(memory["output"]))
+
+
+def _rms(values: Array, count: int) -> float:
+    """Root of the sum of squares over a count."""
+    return float(np.sqrt(np.vdot(values, values) / max(count, 1)))

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import central_path as path
-from .equilibrium import Equilibrium, typical_tension
+from .equilibrium import Equilibrium
 from .far_field import LEAST_CENTRING, Far
 from .linear import Solve
 
@@ -19,8 +19,6 @@ LARGEST_ROTATION = 0.5
 # Least centring where rotations cut the step below CUT.
 LEAST_CENTRING_CUT = 0.1
 CUT = 0.3
-# Least tension and slack of a warm start, over the typical tension.
-WARM = 1e-2
 
 
 class Near:
@@ -41,13 +39,6 @@ class Near:
         gap = far.Y[:, 0] - np.linalg.norm(far.Y[:, 1:], axis=1)
         tension = np.maximum(far.Z[:, 0], tiny)
         return cls(s, tension, np.maximum(tension - s.b.f, np.maximum(s.el.stiffness * gap, tiny)))
-
-    @classmethod
-    def warm(cls, s: Equilibrium, tension: Array) -> Near:
-        """Begin with the tensions (m,) N of a net like this one; tension and slack are kept off zero."""
-        least = max(WARM * typical_tension(s.el, s.b.load), np.finfo(float).tiny)
-        held = np.maximum(tension, least)
-        return cls(s, held, np.maximum(held - s.b.f, least))
 
     def step(self) -> float:
         """Predictor and corrector; return the length of the step taken."""

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 from ..case.schema import Case, DynamicSolve
 from ..forces.compiled import is_compiled
 from ..forces.frame import Frame
 from ..system.system import System
+from .auto import Auto
 from .cone import cone_changes
 from .dynamic import Checkpoint, Settle, output_times, simulate
 from .implicit import Implicit, Newmark
@@ -29,25 +31,28 @@ def planned_frames(case: Case) -> int:
 
 
 STEPPERS: dict[str, Callable[..., Stepper]] = {
+    "auto": Auto,
     "implicit": Implicit,
     "newmark": Newmark,
     "verner": Verner,
     "symplectic": Symplectic,
 }
-# The kernel that takes longest to compile, by what is asked for.
-_KERNELS = {
-    "static": cone_changes,
-    "implicit": assemble_step,
-    "newmark": assemble_step,
-    "verner": advance,
-    "symplectic": leap,
+# The kernels that take longest to compile, by what is asked for.
+_KERNELS: dict[str, tuple[Any, ...]] = {
+    "static": (cone_changes,),
+    "auto": (assemble_step, leap),
+    "implicit": (assemble_step,),
+    "newmark": (assemble_step,),
+    "verner": (advance,),
+    "symplectic": (leap,),
 }
 
 
 def needs_compiling(case: Case) -> bool:
     """Whether a run of the case has to compile its kernels first, which takes some ten seconds, once."""
     chosen = case.solve
-    return not is_compiled(_KERNELS[chosen.stepper if isinstance(chosen, DynamicSolve) else "static"])
+    kernels = _KERNELS[chosen.stepper if isinstance(chosen, DynamicSolve) else "static"]
+    return not all(is_compiled(kernel) for kernel in kernels)
 
 
 def stepper_of(chosen: DynamicSolve) -> Stepper:
@@ -77,13 +82,13 @@ def solve_case(
         if on_frame is not None:
             on_frame(result.frame())
         return result
-    settle = Settle(chosen.settle_force, chosen.settle_energy)
+    ends = chosen.settle_force is not None or chosen.settle_energy is not None
     return simulate(
         system,
         duration=chosen.duration,
         stepper=stepper_of(chosen),
         every=case.output.every,
-        settle=settle if settle != Settle() else None,
+        settle=Settle(chosen.settle_force, chosen.settle_energy) if ends else None,
         on_frame=on_frame,
         on_progress=on_progress,
         on_checkpoint=on_checkpoint,

@@ -100,8 +100,8 @@ def _add_knots(rel, el, c1, cm, mass, diagonal, data):
 
 
 @njit(**OPTIONS)
-def step_right_side(load, T, c, a, a_old, cm, mass, el, t, free, total, out):
-    """Load, tension T + c and inertia M (cm a + (1 - cm) a_old), on the free knots, into out (3 n_free,) N."""
+def step_right_side(load, T, c, a, mass, el, t, free, total, out):
+    """Load, tension T + c and inertia M a, on the free knots, into out (3 n_free,) N."""
     total[:] = load
     for e in range(T.shape[0]):
         i, j = el.knot_a[e], el.knot_b[e]
@@ -112,9 +112,7 @@ def step_right_side(load, T, c, a, a_old, cm, mass, el, t, free, total, out):
     for s in range(free.shape[0]):
         i = free[s]
         m = mass[i]
-        b0 = cm * a[i, 0] + (1.0 - cm) * a_old[i, 0]
-        b1 = cm * a[i, 1] + (1.0 - cm) * a_old[i, 1]
-        b2 = cm * a[i, 2] + (1.0 - cm) * a_old[i, 2]
+        b0, b1, b2 = a[i]
         out[3 * s] = total[i, 0] - m[0] * b0 - m[3] * b1 - m[4] * b2
         out[3 * s + 1] = total[i, 1] - m[3] * b0 - m[1] * b1 - m[5] * b2
         out[3 * s + 2] = total[i, 2] - m[4] * b0 - m[5] * b1 - m[2] * b2

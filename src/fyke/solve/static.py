@@ -3,14 +3,15 @@
 Two fields. Far from the solution the steps are those of second-order cones (solve.cone), in which a turning bar
 makes no false stretch. As soon as one bar is within NEAR of its cone's edge, the steps are those of tension and slack
 (solve.central_path), which end quadratically. Both use the full tangent, the water's load included, with one sparse LU
-an iteration and two solves with it. The end is judged on the true residual: the largest unbalanced force on a free
-knot with tensions by the elastic law itself.
+an iteration and two solves with it. A net on which they do not arrive relaxes in time (solve.relaxation). The end is
+judged on the true residual: the largest unbalanced force on a free knot with tensions by the elastic law itself.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,9 +24,12 @@ from .equilibrium import Equilibrium
 from .far_field import Far
 from .linear import Factorizer, SingularMatrixError
 from .near_field import Near
+from .nested import Nested, nested_start
 from .outcome import Outcome, OutcomeName
+from .relaxation import relax
 from .result import Result
 from .strain import strain_warnings
+from .warm_field import Warm
 
 Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
@@ -37,14 +41,18 @@ NEARER, LEAST_NEAR = 1e-3, 1e-8
 # Steps shorter than SHORT, so many in a row, are a stall.
 SHORT, SHORT_STEPS = 1e-2, 5
 # A warm start that is not there after so many iterations was none: the solve begins anew.
-WARM_STEPS = 12
+WARM_STEPS = 25
+# The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
+PATIENCE = 50
+# Floating parts that are named one by one.
+NAMED_PARTS = 3
 
 
 def solve_static(
     system: System,
     *,
     tolerance: float = 1e-8,
-    max_iterations: int = 100,
+    max_iterations: int = 1000,
     start: State | None = None,
     linear: Factorizer | None = None,
     on_progress: Progress | None = None,
@@ -53,21 +61,32 @@ def solve_static(
 
     tolerance: N, largest unbalanced force on a free knot; where the rounding of the coordinates alone makes more than
     that, its size is the tolerance and the outcome says so. start: where to begin, the net as built by default; with
-    tensions, as Result.state gives them for a net like this one, it is a warm start that takes a few iterations. How
-    it ended is the result's outcome; a solve that fails or is stopped by Ctrl-C returns the last good state.
+    tensions, as Result.state gives them for a net like this one, it is a warm start that takes a few iterations. A
+    large panel without such a start is begun on grouped meshes (solve.nested): the outcome counts the iterations on
+    the real meshes, its message names the others. How it ended is the result's outcome; a solve that fails or is
+    stopped by Ctrl-C returns the last good state. Held knots stay where the net has them, whatever the start. Raises
+    ValueError for a tolerance that is not above zero, less than one iteration, and a start of another shape or with
+    values that are no numbers.
     """
     began = time.perf_counter()
-    begin = start or system.at_rest()
+    begin = _begin(system, tolerance, max_iterations, start)
+    nest = _nested(system, begin, tolerance, on_progress)
+    begin = nest.start if nest else begin
     s = Equilibrium(system, begin, linear)
-    loose = loose_knots(system)
-    if loose.size:
+    loose = loose_parts(system)
+    if loose:
         name, message, advice = _floating(system, loose)
+    elif not np.isfinite(s.residual):
+        name, message, advice = _not_finite(s)
+    elif nest and nest.interrupted:
+        name, message, advice = _interrupted(s)
     else:
         try:
             name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
         except KeyboardInterrupt:
-            name, message = "interrupted", f"stopped by hand after {s.iterations} iterations"
-            advice = "the last shape is saved; run it again"
+            name, message, advice = _interrupted(s)
+    if nest and name == "converged":
+        message += f", begun from {nest.levels}"
     if name == "converged" and s.residual > tolerance:
         message += f"; the asked {tolerance:g} N is below the rounding of the coordinates, {s.floor:.1e} N"
     state = State(0.0, s.good + s.origin, np.zeros_like(s.good))
@@ -87,22 +106,71 @@ def solve_static(
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 
 
-def loose_knots(system: System) -> NDArray[np.int64]:
-    """Knots that no chain of bars joins to a held knot."""
+def _begin(system: System, tolerance: float, max_iterations: int, start: State | None) -> State:
+    """Return where to begin, with the held knots in their places; raises ValueError for what cannot be meant."""
+    if not (np.isfinite(tolerance) and tolerance > 0.0):
+        raise ValueError(f"tolerance is {tolerance}, a force (N) above zero was expected")
+    if max_iterations < 1:
+        raise ValueError(f"max_iterations is {max_iterations}, at least 1 was expected")
+    if start is None:
+        return system.at_rest()
+    net = system.net
+    wanted: dict[str, tuple[Array, tuple[int, ...]]] = {"position": (start.position, (net.knot_count, 3))}
+    if start.tension is not None:
+        wanted["tension"] = (start.tension, (net.bar_count,))
+    for name, (values, shape) in wanted.items():
+        if np.shape(values) != shape:
+            raise ValueError(f"the start's {name} has the shape {np.shape(values)}, the net's is {shape}")
+        wrong = np.flatnonzero(~np.isfinite(values).reshape(shape[0], -1).all(axis=1))
+        if wrong.size:
+            where = net.labels[wrong[0]] if name == "position" else net.bar_label(int(wrong[0]))
+            raise ValueError(f"the start's {name} at {where} is not a number")
+    return replace(start, position=np.where(net.fixed[:, None], net.positions, start.position))
+
+
+def _nested(system: System, begin: State, tolerance: float, on_progress: Progress | None) -> Nested | None:
+    """Warm start of a large panel from grouped meshes, where there is one and none was given."""
+
+    def report(_: float, text: str) -> None:
+        if on_progress is not None:
+            on_progress(0.0, text)
+
+    def solve(coarse: System, at: State, loosely: float) -> Result:
+        return solve_static(coarse, tolerance=loosely, start=at, on_progress=report)
+
+    return nested_start(system, begin, tolerance, solve) if begin.tension is None else None
+
+
+def loose_parts(system: System) -> list[NDArray[np.int64]]:
+    """Parts of the net that no chain of bars joins to a held knot, each the indices of its knots, largest first."""
     el, n = system.elements, system.net.knot_count
     graph = csr_matrix((np.ones(len(el.knot_a)), (el.knot_a, el.knot_b)), shape=(n, n))
-    part = connected_components(graph, directed=False)[1]
-    return np.flatnonzero(~np.isin(part, part[el.free == 0.0]))
+    count, part = connected_components(graph, directed=False)
+    size = np.bincount(part, minlength=count)
+    size[part[el.free == 0.0]] = 0
+    loose = np.flatnonzero(size)
+    return [np.flatnonzero(part == which) for which in loose[np.argsort(-size[loose], kind="stable")]]
 
 
 Verdict = tuple[OutcomeName, str, str]
 
 
-def _floating(system: System, loose: NDArray[np.int64]) -> Verdict:
+def _floating(system: System, parts: list[NDArray[np.int64]]) -> Verdict:
     labels = system.net.labels
+    named = [
+        f"knots {labels[part[0]]} .. {labels[part[-1]]} ({len(part)})"
+        if len(part) > 1
+        else f"knot {labels[part[0]]}"
+        for part in parts[:NAMED_PARTS]
+    ]
+    if len(parts) > NAMED_PARTS:
+        more = len(parts) - NAMED_PARTS
+        named.append(f"{more} more part{'s' if more > 1 else ''}")
+    which = named[0] if len(named) == 1 else f"{', '.join(named[:-1])} and {named[-1]}"
+    one = len(parts) == 1 and len(parts[0]) == 1
     return (
         "singular",
-        f"knots {labels[loose[0]]} .. {labels[loose[-1]]} ({len(loose)}) are held by nothing, so no equilibrium exists",
+        f"{which} {'is' if one else 'are'} held by nothing, so no equilibrium exists",
         "hold a knot of that part, for example fixed = 'top', or run it as a dynamic case",
     )
 
@@ -110,38 +178,73 @@ def _floating(system: System, loose: NDArray[np.int64]) -> Verdict:
 def _iterate(
     s: Equilibrium, tolerance: float, limit: int, tension: Array | None, on_progress: Progress | None
 ) -> Verdict:
-    """Far field, then near field, until the true residual is below tolerance; a warm start begins in the near one."""
-    begin, gap, short = s.x.copy(), NEAR, 0
-    first = max(s.residual, tolerance)
-    warm = tension is not None
-    far, near = Far(s), None if tension is None else Near.warm(s, tension)
-    # The rounding is that of the shape found, which may be much larger than the start.
-    while not s.residual <= max(tolerance, s.floor):
-        if s.iterations >= limit:
-            return _out_of_iterations(s)
-        if near is None and far.near(gap):
-            near = Near.after(far)
-        try:
-            step = (near or far).step()
-        except SingularMatrixError as error:
-            return _no_inverse(s, error)
-        if not np.isfinite(s.residual):
-            return _not_finite(s)
-        short = short + 1 if step < SHORT else 0
-        if short >= SHORT_STEPS and (near is None or gap <= LEAST_NEAR):
-            return _stalled(s)
-        if short >= SHORT_STEPS or (warm and s.iterations >= WARM_STEPS):
-            # The near field jams when it begins too far off: once more from the start, with a longer far field.
-            gap = gap if warm else gap * NEARER
-            warm, short = False, 0
-            s.begin_at(begin)
-            far, near = Far(s), None
+    """Interior point, and where that does not arrive relaxation in time, until the residual is below tolerance."""
+    begin, first = s.x.copy(), max(s.residual, tolerance)
+
+    def there() -> bool:
+        # The rounding is that of the shape found, which may be much larger than the start.
+        return s.residual <= max(tolerance, s.floor)
+
+    def report() -> None:
         if on_progress is not None:
             done = np.log(first / max(s.residual, tolerance)) / max(np.log(first / tolerance), 1.0)
             on_progress(
                 float(np.clip(done, 0.0, 1.0)), f"iteration {s.iterations}, residual {s.residual:.1e} N"
             )
-    return "converged", f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations", ""
+
+    patience = PATIENCE + (0 if tension is None else WARM_STEPS)
+    fault = _interior_point(s, there, min(limit, patience), tension, report)
+    if not there() and s.iterations < limit:
+        s.begin_at(begin)
+        end = relax(s, there, limit, report)
+        if end == "not_finite":
+            return _not_finite(s)
+        if end == "short" and fault is None:
+            return _stalled(s)
+    if there():
+        return (
+            "converged",
+            f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations",
+            "",
+        )
+    return _out_of_iterations(s) if fault is None else _no_inverse(s, fault)
+
+
+def _interior_point(
+    s: Equilibrium, there: Callable[[], bool], limit: int, tension: Array | None, report: Callable[[], None]
+) -> SingularMatrixError | None:
+    """Far field, then near field; a warm start has a field of its own. Returns the fault that ended it, if any."""
+    begin, gap, short = s.x.copy(), NEAR, 0
+    warm = tension is not None
+    field: Far | Near | Warm = Far(s) if tension is None else Warm(s, tension)
+    while not there() and s.iterations < limit:
+        if isinstance(field, Far) and field.near(gap):
+            field = Near.after(field)
+        try:
+            step = field.step()
+        except SingularMatrixError as error:
+            return error
+        report()
+        if not np.isfinite(s.residual):
+            return None
+        short = short + 1 if step < SHORT else 0
+        if short >= SHORT_STEPS and (isinstance(field, Far) or gap <= LEAST_NEAR):
+            return None
+        if short >= SHORT_STEPS or (warm and s.iterations >= WARM_STEPS):
+            # The near field jams when it begins too far off: once more from the start, with a longer far field.
+            gap = gap if warm else gap * NEARER
+            warm, short = False, 0
+            s.begin_at(begin)
+            field = Far(s)
+    return None
+
+
+def _interrupted(s: Equilibrium) -> Verdict:
+    return (
+        "interrupted",
+        f"stopped by hand after {s.iterations} iterations",
+        "the last shape is saved; run it again",
+    )
 
 
 def _left(s: Equilibrium) -> str:
@@ -152,7 +255,8 @@ def _out_of_iterations(s: Equilibrium) -> Verdict:
     return (
         "iteration_limit",
         f"{s.iterations} iterations were not enough: {_left(s)}",
-        "raise max_iterations, or let a dynamic case with twine damping find the shape",
+        "raise max_iterations; a net held by few knots may turn or flap for ever in this current: a dynamic case shows "
+        "it, more held knots or another start may end it",
     )
 
 
@@ -175,6 +279,6 @@ def _not_finite(s: Equilibrium) -> Verdict:
 def _stalled(s: Equilibrium) -> Verdict:
     return (
         "stalled",
-        f"steps became too short after {s.iterations} iterations: {_left(s)}",
-        "the net may have no stable shape near this start: begin from another one, or run a dynamic case",
+        f"neither interior point nor relaxation in time find a step after {s.iterations} iterations: {_left(s)}",
+        "look for bars much stiffer or shorter than the others, begin from another shape, or run a dynamic case",
     )

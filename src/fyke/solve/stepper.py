@@ -33,9 +33,15 @@ Memory = dict[str, Array]
 class Run(Protocol):
     """One stepper at work on one system."""
 
-    state: State
     count: Count
-    step: float
+
+    @property
+    def state(self) -> State:
+        """State at the last step or output."""
+
+    @property
+    def step(self) -> float:
+        """Step at work (s)."""
 
     @property
     def linear_solver(self) -> str:

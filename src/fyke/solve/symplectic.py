@@ -18,9 +18,11 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from ..forces.around import AREA, BLOCK, WORK_ROWS, bars_around, extent
 from ..forces.compiled import OPTIONS
-from ..forces.inertia import invert_masses, mass_matrices
-from ..forces.total import TINY_LENGTH, total_force, work_arrays
+from ..forces.gather import block_force, share_laws
+from ..forces.inertia import block_inverse_masses
+from ..forces.team import LINE, meet, run_team, threads_for
 from ..system.system import State, System
 from .stepper import Count, Memory, Status, fluid_velocity, highest_frequency
 
@@ -31,67 +33,80 @@ SAFETY = 0.7
 # Masses turn with the bars; they are renewed before a bar has turned by so much (rad), at the latest after so many
 # steps.
 TURN, LONGEST_LAG = 0.01, 64
-# Steps of one compiled call: the stable step is renewed, progress and Ctrl-C come through between calls.
-STEPS_PER_CALL = 2000
+# Steps of one compiled call, fewest and most, and steps x bars in between: the stable step is renewed, progress and
+# Ctrl-C come through between calls.
+STEPS_PER_CALL, WORK_PER_CALL = (200, 2000), 50_000_000
+# Squares of accelerations below this are nothing (m2/s4); keeps a division finite.
+TINY_SQUARE = 1e-300
 
 
 @njit(**OPTIONS)
-def _kick(v, h, el, rel, force, inverse, area):
-    """Change velocities by the forces over a time h; area: (n,) kg/m, drag coefficient of all that hangs on a knot."""
-    for i in range(v.shape[0]):
-        hc = h * area[i] * np.sqrt(rel[i, 0] * rel[i, 0] + rel[i, 1] * rel[i, 1] + rel[i, 2] * rel[i, 2])
-        f0, f1, f2 = force[i, 0], force[i, 1], force[i, 2]
-        m0, m1, m2, m3, m4, m5 = inverse[i]
+def _kick_and_drift(block, old, new, kick, drift, around, inverse, g):
+    """Change velocities of a block by the forces over a time kick (s), then positions over a time drift (s).
+
+    old, new: (2, 3, width) positions m and velocities m/s; g: work array with what block_force left there.
+    """
+    here, size = extent(block, around)
+    low, own = here - np.uint64(around.margin), around.knots_row[block]
+    for i in range(size):
+        w = np.sqrt(g[3, i] * g[3, i] + g[4, i] * g[4, i] + g[5, i] * g[5, i])
+        hc = kick * around.knots[own, AREA, i] * w
+        f0, f1, f2, k = g[0, i], g[1, i], g[2, i], low + i
+        m0, m1, m2, m3, m4, m5 = (
+            inverse[0, k],
+            inverse[1, k],
+            inverse[2, k],
+            inverse[3, k],
+            inverse[4, k],
+            inverse[5, k],
+        )
         a0, a1, a2 = m0 * f0 + m3 * f1 + m4 * f2, m3 * f0 + m1 * f1 + m5 * f2, m4 * f0 + m5 * f1 + m2 * f2
         b0, b1, b2 = m0 * a0 + m3 * a1 + m4 * a2, m3 * a0 + m1 * a1 + m5 * a2, m4 * a0 + m5 * a1 + m2 * a2
         square = a0 * a0 + a1 * a1 + a2 * a2
-        s = hc * square / (square + hc * (a0 * b0 + a1 * b1 + a2 * b2)) if square > 0.0 else 0.0
-        v[i, 0] += h * (a0 - s * b0)
-        v[i, 1] += h * (a1 - s * b1)
-        v[i, 2] += h * (a2 - s * b2)
+        s = hc * square / max(square + hc * (a0 * b0 + a1 * b1 + a2 * b2), TINY_SQUARE)
+        g[6, i], g[7, i], g[8, i] = kick * (a0 - s * b0), kick * (a1 - s * b1), kick * (a2 - s * b2)
+    for q in range(3):
+        for i in range(size):
+            v = old[1, q, here + i] + g[6 + q, i]
+            new[1, q, here + i] = v
+            new[0, q, here + i] = old[0, q, here + i] + drift * v
 
 
 @njit(**OPTIONS)
-def _drift(x, v, h):
-    for i in range(x.shape[0]):
-        x[i, 0] += h * v[i, 0]
-        x[i, 1] += h * v[i, 1]
-        x[i, 2] += h * v[i, 2]
+def leap(rank, team, signal, states, h, steps, u, uniform, el, around, law, inverse, rates):
+    """Take so many steps of h (s) as one of a team; x and v at the same time before and after.
 
-
-@njit(**OPTIONS)
-def _steps_until_turned(x, v, el, h):
-    """Steps after which the fastest turning bar has turned by TURN."""
-    fastest = 0.0
-    for e in range(el.knot_a.shape[0]):
-        a, b = el.knot_a[e], el.knot_b[e]
-        rate = turn = 0.0
-        for q in range(3):
-            rate += (v[b, q] - v[a, q]) ** 2
-            turn += (x[b, q] - x[a, q]) ** 2
-        fastest = max(fastest, rate / max(turn, TINY_LENGTH))
-    return int(min(max(TURN / (h * np.sqrt(fastest) + TURN / LONGEST_LAG), 1.0), LONGEST_LAG))
-
-
-@njit(**OPTIONS)
-def leap(x, v, h, steps, u, el, work, area):
-    """Take so many steps; x and v at the same time before and after. Returns force evaluations."""
-    rel, g, force, inverse = work
-    total_force(x, v, u, el, rel, g, force)
-    mass_matrices(x, el, inverse)
-    invert_masses(inverse, el.free)
-    _kick(v, 0.5 * h, el, rel, force, inverse, area)
-    lag = _steps_until_turned(x, v, el, h)
-    for step in range(1, steps + 1):
-        _drift(x, v, h)
-        total_force(x, v, u, el, rel, g, force)
+    states: (2, 2, 3, width) positions m and velocities m/s, the first of which is the start; the last lies in
+    states[(steps + 1) % 2]; u: (3, width) m/s, uniform when the same everywhere; law: (2, m + 1); inverse:
+    (6, blocks x BLOCK); rates: (2, team x LINE).
+    """
+    blocks = around.first.shape[0] - 1
+    first, last = blocks * rank // team, blocks * (rank + 1) // team
+    g = np.zeros((WORK_ROWS, BLOCK))
+    lag = 0
+    for step in range(steps + 1):
+        old, new = states[step & 1], states[1 - (step & 1)]
+        if not around.linear:
+            share_laws(rank, team, old[0], el, around, law)
+            if not meet(signal, team):
+                return
+        renew = lag <= 0
+        fastest = 0.0
+        kick = h if 0 < step < steps else 0.5 * h
+        for block in range(first, last):
+            if renew:
+                fastest = max(fastest, block_inverse_masses(block, old[0], old[1], around, g, inverse))
+            block_force(block, old[0], old[1], u, uniform, around, law, g)
+            _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, g)
+        rates[step & 1, rank * LINE] = fastest
+        if not meet(signal, team):
+            return
         lag -= 1
-        if lag <= 0:
-            mass_matrices(x, el, inverse)
-            invert_masses(inverse, el.free)
-            lag = _steps_until_turned(x, v, el, h)
-        _kick(v, h if step < steps else 0.5 * h, el, rel, force, inverse, area)
-    return steps + 1
+        if renew:
+            for other in range(team):
+                fastest = max(fastest, rates[step & 1, other * LINE])
+            # The first kick may set off at once a net that stood still.
+            lag = 0 if step == 0 else int(TURN / (h * np.sqrt(fastest) + TURN / LONGEST_LAG))
 
 
 @dataclass(frozen=True)
@@ -121,12 +136,12 @@ class SymplecticRun:
         self.method, self.system, self.state = method, system, state
         self.count = Count()
         el = system.elements
-        n = system.net.knot_count
-        rel, g = work_arrays(n)
-        self._work = (rel, g, np.zeros((n, 3)), np.zeros((n, 6)))
-        self._area = el.knot_drag.copy()
-        for end in (el.knot_a, el.knot_b):
-            np.add.at(self._area, end, el.normal_drag * el.rest_length)
+        self.around = around = bars_around(el)
+        self.threads = threads_for(system.net.bar_count)
+        self.steps_per_call = int(np.clip(WORK_PER_CALL // max(system.net.bar_count, 1), *STEPS_PER_CALL))
+        self._law = np.zeros((2, 1 if el.linear else system.net.bar_count + 1))
+        self._inverse = np.zeros((6, around.blocks * BLOCK))
+        self._states = np.zeros((2, 2, 3, around.width))
         self.step = self._bound(state)
 
     def _bound(self, state: State) -> float:
@@ -140,12 +155,30 @@ class SymplecticRun:
         left = end - old.time
         self.step = self._bound(old)
         wanted = int(np.ceil(left / self.step * (1.0 - 1e-12)))
-        steps = min(wanted, STEPS_PER_CALL)
+        steps = min(wanted, self.steps_per_call)
         h = left / wanted
-        x, v = old.position.copy(), old.velocity.copy()
-        self.count.evaluations += leap(
-            x, v, h, steps, fluid_velocity(self.system, old), self.system.elements, self._work, self._area
+        around = self.around
+        self._states[0, 0], self._states[0, 1] = around.columns(old.position), around.columns(old.velocity)
+        flow = fluid_velocity(self.system, old)
+        u, uniform = around.columns(flow), bool(np.all(flow == flow[0]))
+        rates = np.zeros((2, self.threads * LINE))
+        el = self.system.elements
+        run_team(
+            self.threads,
+            leap,
+            self._states,
+            h,
+            steps,
+            u,
+            uniform,
+            el,
+            around,
+            self._law,
+            self._inverse,
+            rates,
         )
+        self.count.evaluations += steps + 1
+        x, v = (around.rows(columns) for columns in self._states[(steps + 1) % 2])
         if not (np.all(np.isfinite(x)) and np.all(np.isfinite(v))):
             return "not_finite"
         self.count.steps += steps

@@ -11,6 +11,7 @@ from ..case.schema import Case
 from ..netting.net import Net
 from ..netting.panel import panel
 from ..netting.together import together
+from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
 from .elements import Elements
 from .system import System
@@ -109,7 +110,8 @@ def make_system(
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
     linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
-    damping = np.array([t.damping_time for t in net.twines])[net.twine_of_bar]
+    knot_mass = mass + c.added_mass_knot * w.density * knot_volume
+    damping = _retardation(net, ringing(net, stiffness, knot_mass))
     elements = Elements(
         knot_a=np.ascontiguousarray(net.bars[:, 0], dtype=np.uint32),
         knot_b=np.ascontiguousarray(net.bars[:, 1], dtype=np.uint32),
@@ -125,15 +127,34 @@ def make_system(
         linear=linear,
         damped=bool(np.any(damping > 0.0)),
         knot_drag=0.5 * w.density * c.knot * np.pi / 4.0 * net.knot_diameter**2,
-        knot_mass=mass + c.added_mass_knot * w.density * knot_volume,
+        knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
-    return System(net, flow, elements, float(w.gravity * sinking.sum()), _sources(net, c))
+    return System(net, flow, elements, float(w.gravity * sinking.sum()), _sources(net, c, damping))
 
 
-def _sources(net: Net, c: Coefficients) -> tuple[str, ...]:
+def ringing(net: Net, stiffness: Array, knot_mass: Array) -> Array:
+    """Frequency (m,) rad/s at which the two knots of a bar would swing along it if nothing but the bar held them.
+
+    omega^2 = k (1/m_a + 1/m_b), a held knot being heavy beyond measure; 0 between two held knots. stiffness: (m,) N/m;
+    knot_mass: (n,) kg, added mass of the knot included.
+    """
+    moves = ~net.fixed & (knot_mass > 0.0)
+    lightness = np.divide(1.0, knot_mass, out=np.zeros_like(knot_mass), where=moves)
+    a, b = net.bars.T
+    return np.asarray(np.sqrt(stiffness * (lightness[a] + lightness[b])))
+
+
+def _retardation(net: Net, frequency: Array) -> Array:
+    """Retardation time of every bar, (m,) s: the twine's, and tan delta / omega at the bar's ringing (rad/s)."""
+    time = np.array([t.damping_time for t in net.twines])[net.twine_of_bar]
+    loss = np.array([t.loss_factor for t in net.twines])[net.twine_of_bar]
+    return np.asarray(time + np.divide(loss, frequency, out=np.zeros_like(loss), where=frequency > 0.0))
+
+
+def _sources(net: Net, c: Coefficients, damping: Array) -> tuple[str, ...]:
     """One line for each law: what it says and where it comes from."""
     return (
         f"bar drag: constant C_n = {c.bar_normal:g}, C_t = {c.bar_tangential:g} on d x length, normal and tangential "
@@ -143,6 +164,25 @@ def _sources(net: Net, c: Coefficients) -> tuple[str, ...]:
         f"added mass: C_a = {c.added_mass_bar:g} across a bar, {c.added_mass_knot:g} of a knot (potential flow: "
         "cylinder 1, sphere 1/2)",
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
+        *(
+            f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
+            for i, t in enumerate(net.twines)
+        ),
+    )
+
+
+def _damping(twine: Twine, time: Array) -> str:
+    """Say what damps the bars of a twine, whose retardation times (s) are these."""
+    longest = float(time.max(initial=0.0))
+    if longest == 0.0:
+        return "none"
+    said = f"Kelvin-Voigt, retardation time {longest:.3g} s"
+    if twine.loss_factor == 0.0:
+        return said
+    said += f" at most, of it loss factor {twine.loss_factor:g} over the frequency of each bar's ringing"
+    material = MATERIALS.get(twine.material)
+    return (
+        f"{said} ({material.loss_source})" if material and material.loss_factor == twine.loss_factor else said
     )
 
 
