@@ -10,10 +10,12 @@ from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, T
 
 
 @contextmanager
-def progress_bar(console: Console, *, shown: bool) -> Iterator[Callable[[float, str], None]]:
+def progress_bar(
+    console: Console, *, shown: bool, doing: str = "solving"
+) -> Iterator[Callable[[float, str], None]]:
     """Hand out a function of the fraction done (0 to 1) and a text; nothing is drawn where no one looks."""
     bar = Progress(
-        TextColumn("solving"),
+        TextColumn(doing),
         BarColumn(bar_width=24),
         TaskProgressColumn(),
         TimeRemainingColumn(),
