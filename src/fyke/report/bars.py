@@ -12,6 +12,7 @@ from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
+from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from . import style
@@ -131,32 +132,48 @@ def mark(ax: Axes, points: Array, **options: Any) -> None:
     )
 
 
-def tension_bar(figure: Figure, room: tuple[float, float, float, float], scale: Normalize) -> Colorbar:
-    """Add a colour bar with its unit; room: left, bottom, width and height in inches."""
-    width, height = figure.get_size_inches()
-    ax = figure.add_axes(
-        (room[0] / width, room[1] / height, room[2] / width, room[3] / height), label="colour bar"
+def tension_bar(home: Figure | Axes, room: tuple[float, float, float, float], scale: Normalize) -> Colorbar:
+    """Add a colour bar with its unit to a figure or to axes, with which it moves.
+
+    room: left, bottom, width and height in inches, from the lower left of figure or axes.
+    """
+    figure: Any = home.get_figure(root=True)
+    cax = figure.add_axes((0.0, 0.0, 1.0, 1.0), label="colour bar")
+
+    def place(_cax: Axes, _renderer: Any) -> Bbox:
+        corner = (home.bbox.x0, home.bbox.y0) if isinstance(home, Axes) else (0.0, 0.0)
+        inches = Bbox.from_bounds(*room).transformed(figure.dpi_scale_trans)
+        return inches.translated(*corner).transformed(figure.transFigure.inverted())
+
+    cax.set_axes_locator(place)
+    cax.set_position(place(cax, None))
+    upright = room[3] > room[2]
+    mappable, options = shown_tensions(scale)
+    bar: Colorbar = figure.colorbar(
+        mappable, cax=cax, orientation="vertical" if upright else "horizontal", **options
     )
-    factor, unit = style.prefixed(float(scale.vmax or 0.0), "N")
-    bar = figure.colorbar(
-        ScalarMappable(scale, style.TENSION_COLOURS),
-        cax=ax,
-        orientation="vertical" if room[3] > room[2] else "horizontal",
-        ticks=MaxNLocator(5, steps=STEPS),
-        format=FuncFormatter(lambda value, _: number(value * factor)),
-    )
-    bar.set_label(f"Bar tension ({unit})")
     return bar
 
 
-def name_marks(figure: Figure) -> None:
-    """Name what is drawn, each thing once, in one row above the axes."""
+def shown_tensions(scale: Normalize) -> tuple[ScalarMappable, dict[str, Any]]:
+    """Return what a colour bar of tensions shows, and its options: ticks, numbers and label with the unit."""
+    factor, unit = style.prefixed(float(scale.vmax or 0.0), "N")
+    options = {
+        "ticks": MaxNLocator(5, steps=STEPS),
+        "format": FuncFormatter(lambda value, _: number(value * factor)),
+        "label": f"Bar tension ({unit})",
+    }
+    return ScalarMappable(scale, style.TENSION_COLOURS), options
+
+
+def name_marks(home: Figure | Axes) -> None:
+    """Name what is drawn in a figure or in axes, each thing once, in one row above it."""
     named: dict[str, Any] = {}
-    for ax in figure.axes:
+    for ax in home.axes if isinstance(home, Figure) else [home]:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
     if named:
-        legend = figure.legend(
+        legend = home.legend(
             list(named.values()),
             list(named),
             loc="upper center",

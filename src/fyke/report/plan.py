@@ -3,17 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from ..netting.net import Net, Panel
 from ..solve.result import Result
 from . import style
-from .bars import draw_knots, draw_tension, name_marks, slack_name, tension_bar, tension_scale
+from .bars import (
+    draw_knots,
+    draw_tension,
+    name_marks,
+    shown_tensions,
+    slack_name,
+    tension_bar,
+    tension_scale,
+)
 from .parts import Knots, parts_of
-from .plane import frame, plane_axes
+from .plane import draw_plane, frame, plane_axes, size_of
 
 Array = NDArray[np.float64]
 
@@ -50,15 +61,48 @@ def tension_plan(result: Result) -> Figure:
         limits, left, bottom = sheet.place(index)
         ax = plane_axes(figure, limits, (left, bottom), metres=sheet.metres, names=plan.names)
         ax.set_title(plan.title)
-        bars, tension = result.net.bars[plan.bars], result.tension[-1][plan.bars]
-        draw_tension(ax, plan.points, bars, tension, scale, named=slack_name(shown))
-        for part in parts_of(result.net):
-            if isinstance(part, Knots):
-                draw_knots(ax, plan.points, _within(part, plan.knots, len(plan.points)))
+        _draw_netting(ax, result, plan, scale, named=slack_name(shown))
     if taut:
         tension_bar(figure, sheet.colour_bar, scale)
     name_marks(figure)
     return figure
+
+
+@style.styled
+def draw_plan(ax: Axes, result: Result, panel: str | None = None) -> None:
+    """Draw the plan of a panel, or of the only one, into axes, with a colour bar that takes its room from them.
+
+    ValueError for a name that no panel has, and without a name where there are several.
+    """
+    plans = {named.name: plan for named, plan in zip(result.net.panels, _plans(result.net), strict=False)}
+    if panel is None and len(plans) < 2:
+        (plan,) = _plans(result.net)
+    elif panel in plans:
+        plan = plans[panel]
+    else:
+        asked = "the net has several panels" if panel is None else f"the net has no panel {panel!r}"
+        raise ValueError(f"{asked}; choose one of {', '.join(plans) or 'none'}")
+    tension = result.tension[-1][plan.bars]
+    scale, limits = tension_scale(tension), frame(plan.points[plan.knots])
+    if np.any(tension > 0.0):
+        figure: Any = ax.get_figure(root=True)
+        mappable, options = shown_tensions(scale)
+        figure.colorbar(mappable, ax=ax, **options)
+    metres = float((np.ptp(limits, axis=0) / size_of(ax)).max())
+    draw_plane(ax, limits, metres=metres, names=plan.names)
+    _draw_netting(ax, result, plan, scale, named=slack_name(tension))
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=2)
+
+
+def _draw_netting(ax: Axes, result: Result, plan: _Plan, scale: Normalize, *, named: str) -> None:
+    """Draw bars and marked knots of a plan; named: slack bars in the legend."""
+    draw_tension(
+        ax, plan.points, result.net.bars[plan.bars], result.tension[-1][plan.bars], scale, named=named
+    )
+    for part in parts_of(result.net):
+        if isinstance(part, Knots):
+            draw_knots(ax, plan.points, _within(part, plan.knots, len(plan.points)))
 
 
 def _within(part: Knots, knots: slice, count: int) -> Knots:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -33,9 +35,20 @@ def plane_axes(
     page = figure.get_size_inches()
     size = np.ptp(limits, axis=0) / metres
     ax = figure.add_axes((*(np.array(room) / page), *(size / page)), label="plane")
+    draw_plane(ax, limits, metres=metres, names=names)
+    return ax
+
+
+def draw_plane(ax: Axes, limits: Array, *, metres: float, names: tuple[str, str]) -> None:
+    """Give axes limits (2, 2) m, ticks for a scale of so many metres to an inch, and labels; names: without unit."""
     ax.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
     ax.set(xlabel=f"{names[0]} (m)", ylabel=f"{names[1]} (m)")
     for axis, ends, direction in zip((ax.xaxis, ax.yaxis), limits.T, np.eye(2), strict=True):
         values = round_values(ends, direction * 72.0 / metres)
         axis.set_ticks(list(values), [number(value) for value in values])
-    return ax
+
+
+def size_of(ax: Axes) -> Array:
+    """Width and height of axes in inches, as they stand now."""
+    figure: Any = ax.get_figure(root=True)
+    return np.array([ax.bbox.width, ax.bbox.height]) / figure.dpi

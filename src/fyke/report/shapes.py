@@ -26,11 +26,13 @@ from .bars import (
     tension_scale,
 )
 from .parts import Bars, Outline, parts_of
-from .space import View, box, far_to_near, seen_extent, space_axes
+from .plane import size_of
+from .space import View, box, draw_space, far_to_near, seen_extent
 
 Array = NDArray[np.float64]
 
 LEFT, RIGHT, LEGEND, NUMBERS, COLOUR_BAR, ARROW = 0.64, 0.25, 0.24, 0.42, 0.46, 0.3  # in, around the box
+LEAST = 0.3  # in, of the box in axes that are too small for what stands around it
 ARROW_LENGTH = 0.32  # in, of a current across the line of sight
 
 
@@ -42,7 +44,9 @@ def initial_position(result: Result, *, current: ArrayLike | None = None) -> Fig
     """
     net = result.net
     speed = 0.0 if current is None else float(np.linalg.norm(current))
-    figure, ax, view = _in_space(result, above=LEGEND + (ARROW if speed else 0.0), below=NUMBERS)
+    above = LEGEND + (ARROW if speed else 0.0)
+    figure, ax = _page(result, above=above, below=NUMBERS)
+    view = _in_space(ax, result, above=above, below=NUMBERS)
     width = line_width(net.bar_count)
 
     def plain(points: Array, part: Bars) -> None:
@@ -63,10 +67,19 @@ def initial_position(result: Result, *, current: ArrayLike | None = None) -> Fig
 @style.styled
 def equilibrium_shape(result: Result) -> Figure:
     """Show the last frame in space: every bar in the colour of its tension, slack bars grey and dashed."""
+    below = NUMBERS + (COLOUR_BAR if np.any(result.tension[-1] > 0.0) else 0.0)
+    figure, ax = _page(result, above=LEGEND, below=below)
+    draw_shape(ax, result)
+    return figure
+
+
+@style.styled
+def draw_shape(ax: Axes, result: Result) -> None:
+    """Draw the last frame in space, with axes, colour bar and names, into the rectangle of plain axes as it is now."""
     net, tension = result.net, result.tension[-1]
     taut = bool(np.any(tension > 0.0))
     scale = tension_scale(tension)
-    figure, ax, view = _in_space(result, above=LEGEND, below=NUMBERS + (COLOUR_BAR if taut else 0.0))
+    view = _in_space(ax, result, above=LEGEND, below=NUMBERS + (COLOUR_BAR if taut else 0.0))
 
     def coloured(points: Array, part: Bars) -> None:
         bars = part.bars[far_to_near(seen, net.bars[part.bars])]
@@ -79,9 +92,8 @@ def equilibrium_shape(result: Result) -> Figure:
     seen = view.see(result.position[-1])
     _draw_parts(ax, view, net, seen, coloured)
     if taut:
-        tension_bar(figure, (0.55, 0.34, style.SINGLE_COLUMN - 1.1, 0.07), scale)
-    name_marks(figure)
-    return figure
+        tension_bar(ax, (0.55, 0.34, float(size_of(ax)[0]) - 1.1, 0.07), scale)
+    name_marks(ax)
 
 
 def _draw_parts(ax: Axes, view: View, net: Net, seen: Array, draw: Callable[[Array, Bars], None]) -> None:
@@ -95,14 +107,24 @@ def _draw_parts(ax: Axes, view: View, net: Net, seen: Array, draw: Callable[[Arr
             draw_knots(ax, seen[:, :2], part)
 
 
-def _in_space(result: Result, *, above: float, below: float) -> tuple[Figure, Axes, View]:
-    """Start a figure of one column; the same box holds the first and the last shape, so that figures compare."""
-    corners = box(result.net.positions, result.position[-1])
+def _page(result: Result, *, above: float, below: float) -> tuple[Figure, Axes]:
+    """Start a figure of one column with axes that fill it, as tall as the net needs; above, below: room in inches."""
     width = style.SINGLE_COLUMN - LEFT - RIGHT
-    seen = np.ptp(seen_extent(corners), axis=0)
+    seen = np.ptp(seen_extent(_corners(result)), axis=0)
     height = float(np.clip(width * seen[1] / seen[0], 0.4 * width, 1.1 * width))
     figure = Figure(figsize=(style.SINGLE_COLUMN, below + height + above))
-    return figure, *space_axes(figure, corners, (LEFT, below, width, height))
+    return figure, figure.add_axes((0.0, 0.0, 1.0, 1.0), label="space")
+
+
+def _corners(result: Result) -> Array:
+    """Return the box of the first and the last shape, the same for both, so that figures compare."""
+    return box(result.net.positions, result.position[-1])
+
+
+def _in_space(ax: Axes, result: Result, *, above: float, below: float) -> View:
+    """Draw the box of a net into axes, with room above and below it (in)."""
+    width, height = np.maximum(size_of(ax) - [LEFT + RIGHT, above + below], LEAST).tolist()
+    return draw_space(ax, _corners(result), (LEFT, below, width, height))
 
 
 def _draw_current(figure: Figure, view: View, direction: Array, speed: float) -> None:

@@ -17,6 +17,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from . import style
+from .plane import size_of
 from .ticks import number, round_values, text_size
 
 Array = NDArray[np.float64]
@@ -91,17 +92,28 @@ def space_axes(figure: Figure, corners: Array, room: Rectangle) -> tuple[Axes, V
 
     room: left, bottom, width and height in inches.
     """
-    extent = seen_extent(corners)
     page, size = np.array(figure.get_size_inches()), np.array(room[2:])
-    metres = float(((extent[1] - extent[0]) / size).max())  # per inch
-    limits = extent.mean(axis=0) + np.outer([-0.5, 0.5], size * metres)
     ax = figure.add_axes((*(np.array(room[:2]) / page), *(size / page)), label="space")
-    ax.set(xlim=limits[:, 0], ylim=limits[:, 1], aspect="equal")
+    return ax, draw_space(ax, corners, (0.0, 0.0, *room[2:]))
+
+
+def draw_space(ax: Axes, corners: Array, room: Rectangle) -> View:
+    """Draw a framed box (2, 3) m that fills a room within axes, with its ticks and labels around; return the view.
+
+    room: left, bottom, width and height in inches, from the lower left of the axes, which become a plane in m.
+    """
+    extent, page, size = seen_extent(corners), size_of(ax), np.array(room[2:])
+    metres = float(((extent[1] - extent[0]) / size).max())  # per inch
+    off = np.array(room[:2]) + size / 2.0 - page / 2.0
+    limits = extent.mean(axis=0) - off * metres + np.outer([-0.5, 0.5], page * metres)
+    ax.set(xlim=limits[:, 0], ylim=limits[:, 1])
+    # Axes that a layout stretches afterwards show more of the plane, on one scale still.
+    ax.set_aspect("equal", adjustable="datalim")
     ax.set_axis_off()
     view = view_of(corners)
     for axis in range(3):
         _draw_axis(ax, view, corners, axis, metres)
-    return ax, view
+    return view
 
 
 def _draw_axis(ax: Axes, view: View, corners: Array, axis: int, metres: float) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from importlib import import_module
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,3 +60,21 @@ class Result:
     def frame(self, index: int = -1) -> Frame:
         """Return one frame; the last by default."""
         return Frame(**{f.name: getattr(self, f.name)[index] for f in fields(Frame)})
+
+    @property
+    def plot(self) -> Any:
+        """Plots into matplotlib axes: plot.shape(ax=None), plot.tension(ax=None), plot.history(ax=None, of="drag")."""
+        return _further("report.notebook").Plot(self)
+
+    def to_xarray(self) -> Any:
+        """Return the result as an xarray.Dataset with units, meanings and the labels of the knots."""
+        return _further("results.dataset").to_xarray(self)
+
+    def _repr_html_(self) -> str:
+        text: str = _further("report.notebook").glance(self)
+        return text
+
+
+def _further(name: str) -> Any:
+    """Return a module of a later layer, fetched when a notebook asks: solving needs neither pictures nor files."""
+    return import_module(f"fyke.{name}")
