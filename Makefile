@@ -25,6 +25,12 @@ bench: $(VENV)/.installed-test
 bench-peers: $(VENV)/.installed-peers
 	@$(BIN)/python benchmarks/peers.py
 
+bench-see: $(VENV)/.installed-see
+	@$(BIN)/python benchmarks/see.py
+
+gallery: $(VENV)/.installed-test
+	@$(BIN)/python docs/gallery.py
+
 format: $(VENV)/.installed-test
 	@$(BIN)/ruff format . && $(BIN)/ruff check --fix .
 
@@ -49,3 +55,8 @@ $(VENV)/.installed-peers: $(VENV)/.installed-test
 	@echo "== installing the tools to compare with into $(VENV) (a minute on the first call)"
 	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[peers]" && touch $@ \
 	  || echo "== not all could be installed; the table says which are missing"
+
+$(VENV)/.installed-see: $(VENV)/.installed-test
+	@echo "== installing what films and VTK files are read with into $(VENV) (a minute on the first call)"
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[vtk,movie]" && touch $@ \
+	  || echo "== not all could be installed; the table says what is missing"

@@ -51,4 +51,4 @@ def draw_plane(ax: Axes, limits: Array, *, metres: float, names: tuple[str, str]
 def size_of(ax: Axes) -> Array:
     """Width and height of axes in inches, as they stand now."""
     figure: Any = ax.get_figure(root=True)
-    return np.array([ax.bbox.width, ax.bbox.height]) / figure.dpi
+    return np.asarray(np.array([ax.bbox.width, ax.bbox.height]) / figure.dpi)

@@ -52,7 +52,7 @@ def _angle(result: Result, index: int, current: Array | None) -> Array:
     if current is None or not np.any(current):
         return np.zeros(len(along))
     across = np.linalg.norm(np.cross(along, current), axis=1)
-    return np.degrees(np.arctan2(across, np.abs(along @ current)))
+    return np.asarray(np.degrees(np.arctan2(across, np.abs(along @ current))))
 
 
 QUANTITIES: dict[str, BarQuantity] = {
