@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import subprocess
 import sys
 from pathlib import Path
 from types import SimpleNamespace
@@ -121,6 +122,17 @@ def test_a_film_without_what_it_needs_says_how_to_get_it(monkeypatch, tmp_path):
     with pytest.raises(MovieError, match=r"pyvista: pip install 'fyke\[movie\]'"):
         write_movie(swinging(), tmp_path / "film.mp4")
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems always have a renderer")
+def test_without_a_renderer_a_film_ends_in_a_sentence(machinery, monkeypatch, tmp_path):
+    # A kind of window that VTK does not find the library of; where it does, the film is made.
+    monkeypatch.setenv("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
+    fyke.save(swinging(2), tmp_path / "result.nc")
+    words = ("-m", "fyke", "movie", str(tmp_path), "--size", "64x36", "--fps", "4")
+    done = subprocess.run([sys.executable, *words], capture_output=True, text=True, check=False)
+    assert (done.returncode, "VTK can draw nothing here" in done.stderr) in ((2, True), (0, False))
+    assert (tmp_path / "movie.mp4").exists() == (done.returncode == 0)
 
 
 def test_a_film_that_the_disk_cut_off_is_no_film(machinery, monkeypatch, tmp_path):

@@ -6,9 +6,12 @@ the picture, the colours with their unit, and the time.
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from importlib import import_module
 from itertools import pairwise
 from pathlib import Path
@@ -35,6 +38,14 @@ Picture = NDArray[np.uint8]
 Progress = Callable[[float], None]
 
 KINDS = (".mp4", ".gif")
+# Draws nothing, off the screen. VTK crashes where it finds neither a display nor EGL nor OSMesa.
+PROBE = """
+import vtkmodules.vtkRenderingOpenGL2
+from vtkmodules.vtkRenderingCore import vtkRenderWindow
+window = vtkRenderWindow()
+window.SetOffScreenRendering(1)
+window.Render()
+"""
 # Shares of the width and the height that the net may fill; the colours stand at the right.
 NET_WIDE, NET_TALL, NET_MIDDLE = 0.76, 0.84, 0.43
 DOTS = 100  # per inch of what stands over the net; type is of TYPE points at TYPE_HEIGHT pixels of height
@@ -116,6 +127,20 @@ def _needed(name: str) -> Any:
         raise MovieError(f"a film needs the package {package}: pip install 'fyke[movie]'") from None
 
 
+@cache
+def _check_drawing() -> None:
+    """Raise MovieError where VTK cannot draw here, found out in a process that may crash."""
+    try:
+        done = subprocess.run([sys.executable, "-c", PROBE], capture_output=True, check=False, timeout=60)
+        works = done.returncode == 0
+    except subprocess.TimeoutExpired:
+        works = False
+    if not works:
+        raise MovieError(
+            "VTK can draw nothing here: it finds neither a display nor EGL nor OSMesa; on Debian: apt install libegl1"
+        )
+
+
 @contextmanager
 def _with_ending(part: Path, ending: str) -> Iterator[Path]:
     """Hand out a working name with the ending that the writers of films go by; rename it to `part` at the end."""
@@ -155,6 +180,7 @@ class Stage:
         self._result, self._reel = result, reel
         self._colouring = Colouring.of(result, reel.colour, current)
         self._pv = _needed("pyvista")
+        _check_drawing()
         # VTK warns of a screen that it does not find, and then does without.
         logger = _needed("vtkmodules.vtkCommonCore").vtkLogger
         logger.SetStderrVerbosity(logger.VERBOSITY_ERROR)
