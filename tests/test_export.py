@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+import struct
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -15,6 +16,7 @@ from typer.testing import CliRunner
 import fyke
 from fyke.cli.app import app
 from fyke.forces.frame import Frame
+from fyke.report import gltf
 from fyke.report.colours import QuantityError, linear
 from fyke.report.gltf import write_gltf
 from fyke.report.solids import SIDES, balls, tubes
@@ -184,6 +186,25 @@ def test_blender_gets_tubes_of_true_size_with_z_turned_up(result, tmp_path):
     colours /= 65535.0 if colours.max() > 1.0 else 1.0
     grey = np.all(np.abs(colours - 0.2623) < 1e-3, axis=1)
     assert np.array_equal(grey, result.tension[-1] == 0.0)
+
+
+def test_a_net_too_large_for_tubes_goes_out_as_lines(result, tmp_path, monkeypatch):
+    monkeypatch.setattr(gltf, "TUBES_UP_TO", 255)
+    data = write_gltf(result, tmp_path / "net.glb").read_bytes()
+    magic, version, size, length, _ = struct.unpack("<4sIIII", data[:20])
+    assert (magic, version, size) == (b"glTF", 2, len(data))
+    told, binary = json.loads(data[20 : 20 + length]), data[28 + length :]
+    (netting,) = (mesh["primitives"][0] for mesh in told["meshes"] if mesh["name"] == "netting")
+    assert netting["mode"] == 1  # LINES in the specification of glTF
+
+    def array(number: int, kind: str) -> np.ndarray:
+        view = told["bufferViews"][told["accessors"][number]["bufferView"]]
+        return np.frombuffer(binary[view["byteOffset"] :][: view["byteLength"]], kind)
+
+    points = array(netting["attributes"]["POSITION"], "<f4").reshape(-1, 3)
+    ends = points[array(netting["indices"], "<u4").reshape(-1, 2)]
+    turned = result.position[-1][:, [0, 2, 1]] * [1.0, 1.0, -1.0]
+    assert ends == pytest.approx(turned[result.net.bars], abs=1e-6)
 
 
 def test_solids_are_those_of_geometry():
