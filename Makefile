@@ -25,7 +25,7 @@ bench: $(VENV)/.installed-test
 bench-peers: $(VENV)/.installed-peers
 	@$(BIN)/python benchmarks/peers.py
 
-bench-see: $(VENV)/.installed-see
+bench-see: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/see.py
 
 gallery: $(VENV)/.installed-test
@@ -47,16 +47,11 @@ $(VENV)/.installed: $(VENV)/bin/python pyproject.toml
 	@touch $@
 
 $(VENV)/.installed-test: $(VENV)/bin/python pyproject.toml
-	@echo "== installing fyke and its test tools into $(VENV) (a minute on the first call)"
-	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[test]"
+	@echo "== installing fyke and its test tools into $(VENV) (some minutes on the first call)"
+	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[test,view,vtk,movie,notebook]"
 	@touch $@ $(VENV)/.installed
 
 $(VENV)/.installed-peers: $(VENV)/.installed-test
 	@echo "== installing the tools to compare with into $(VENV) (a minute on the first call)"
 	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[peers]" && touch $@ \
 	  || echo "== not all could be installed; the table says which are missing"
-
-$(VENV)/.installed-see: $(VENV)/.installed-test
-	@echo "== installing what films and VTK files are read with into $(VENV) (a minute on the first call)"
-	@$(BIN)/python -m pip install --disable-pip-version-check --quiet --progress-bar on -e ".[vtk,movie]" && touch $@ \
-	  || echo "== not all could be installed; the table says what is missing"

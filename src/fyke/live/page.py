@@ -113,7 +113,7 @@ class Page:
     def _add_knot(self) -> None:
         gui = self.client.gui
         with gui.add_folder("Knot"):
-            self._chosen = gui.add_text(
+            self._chosen: Any = gui.add_text(
                 "Knot", initial_value="", hint="Click a knot of the net, or write its label"
             )
             self._said["knot"] = gui.add_markdown("Click a knot, then drag its arrows.")

@@ -6,13 +6,12 @@ from collections.abc import Callable
 
 import numpy as np
 import viser
-from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 
 from ..report.parts import Bars, Knots, Outline, parts_of
 from ..report.quantities import BarQuantity, quantities
 from ..report.space import AZIMUTH, ELEVATION
-from ..report.style import SLACK_GREY, TENSION_COLOURS
+from ..report.style import SLACK_GREY, TENSION_COLOURS, rgb
 from .study import Study
 
 Array = NDArray[np.float64]
@@ -29,7 +28,7 @@ def _bytes(colours: ArrayLike) -> NDArray[np.uint8]:
 
 
 PALETTE = _bytes(TENSION_COLOURS(np.linspace(0.0, 1.0, 256))[:, :3])
-GREY = _bytes(to_rgb(SLACK_GREY))
+GREY = _bytes(rgb(SLACK_GREY))
 
 
 class Scene:
@@ -111,9 +110,7 @@ class Scene:
     ) -> None:
         colours = np.empty((len(points), 2, 3), dtype=np.uint8)
         colours[:] = (
-            (255.0 * np.array(to_rgb(colour))).astype(np.uint8)
-            if isinstance(colour, str)
-            else colour[:, None]
+            (255.0 * np.array(rgb(colour))).astype(np.uint8) if isinstance(colour, str) else colour[:, None]
         )
         handle = self._lines.get(name)
         if handle is None:
@@ -130,7 +127,7 @@ class Scene:
             return
         if handle is not None:
             handle.remove()
-        colour = tuple(_bytes(to_rgb(part.colour)).tolist())
+        colour = tuple(_bytes(rgb(part.colour)).tolist())
         size = KNOT * part.size * float(np.median(self.study.result.net.rest_length))
         self._points[part.name] = self.client.scene.add_point_cloud(
             f"/{part.name}", points, colour, point_size=size, point_shape="circle", precision="float32"

@@ -136,12 +136,15 @@ class Study:
         """Return the system with the pinned knots held."""
         if not self.pins:
             return built
-        fixed, free = built.net.fixed.copy(), built.elements.free.copy()
-        knots = list(self.pins)
-        fixed[knots], free[knots] = True, 0.0
-        return replace(
-            built, net=replace(built.net, fixed=fixed), elements=built.elements._replace(free=free)
+        fixed, free, positions = (
+            built.net.fixed.copy(),
+            built.elements.free.copy(),
+            built.net.positions.copy(),
         )
+        knots = list(self.pins)
+        fixed[knots], free[knots], positions[knots] = True, 0.0, list(self.pins.values())
+        net = replace(built.net, fixed=fixed, positions=positions)
+        return replace(built, net=net, elements=built.elements._replace(free=free))
 
     def _start(self, system: System) -> State:
         """Present state, with held knots where the system holds them."""
@@ -149,8 +152,6 @@ class Study:
         position, velocity = state.position.copy(), state.velocity.copy()
         held = system.net.fixed
         position[held], velocity[held] = system.net.positions[held], 0.0
-        for knot, place in self.pins.items():
-            position[knot] = place
         return State(state.time, position, velocity, state.tension)
 
     def _solved(self, system: System, begin: State | None) -> Result:
@@ -170,13 +171,7 @@ class Study:
 
     def reset(self) -> None:
         """Lay the net out as it was built, at rest, and set it in motion."""
-        self._let_go(self.system, self._start_flat())
-
-    def _start_flat(self) -> State:
-        position = self.system.net.positions.copy()
-        for knot, place in self.pins.items():
-            position[knot] = place
-        return State(0.0, position, np.zeros_like(position))
+        self._let_go(self.system, self.system.at_rest())
 
     def _let_go(self, system: System, begin: State) -> None:
         self.run = Implicit().start(system, State(begin.time, begin.position, begin.velocity))

@@ -14,7 +14,7 @@ from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, to_rgb
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -55,6 +55,11 @@ STYLE: dict[str, Any] = {
     "savefig.dpi": RESOLUTION,
     "svg.hashsalt": "fyke",
 }
+
+
+def rgb(colour: str) -> tuple[float, float, float]:
+    """Return red, green and blue, 0 to 1, of a colour by name or number."""
+    return to_rgb(colour)
 
 
 @contextmanager

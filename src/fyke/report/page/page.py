@@ -81,7 +81,7 @@ def render(
     data = {"scene": scene(result, current) if spatial else None, "histories": _histories(result, current)}
     kept = kept_frames(result)
     step = np.ptp(result.position[kept].reshape(-1, 3), axis=0).max() / STEPS
-    return _template("report.html").render(
+    html: str = _template("report.html").render(
         title=figures["title"] or origin.file.stem,
         figures=figures,
         plain=words.PLAIN[figures["outcome"]],
@@ -107,6 +107,7 @@ def render(
         style=_asset("report.css"),
         script=_asset("report.js"),
     )
+    return html
 
 
 def _template(name: str) -> Any:
