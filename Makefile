@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-peers bench bench-peers format clean
+.PHONY: demo test bench-million test-peers bench bench-peers format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -21,6 +21,9 @@ test-peers: $(VENV)/.installed-peers
 
 bench: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/run.py
+
+bench-million: $(VENV)/.installed-test
+	@$(BIN)/python benchmarks/million.py
 
 bench-peers: $(VENV)/.installed-peers
 	@$(BIN)/python benchmarks/peers.py

@@ -505,3 +505,20 @@ def test_drawing_needs_no_display_and_loads_no_window_system(tmp_path):
         timeout=60,
     )
     assert run.stdout.strip() == "False"
+
+
+def test_of_very_many_bars_some_are_drawn_and_the_legend_says_so(monkeypatch):
+    monkeypatch.setattr("fyke.report.bars.BARS_UP_TO", 100)
+    net = panel(TWINE, mesh="diamond", meshes=(8, 8), bar_length=0.03, size=(WIDTH, WIDTH))
+    result = Result.from_frames(net, OUTCOME, 0.0, [frame_of(net, 1.2 * net.positions)])
+    for make, kind in (
+        (initial_position, "bars"),
+        (equilibrium_shape, "taut-bars"),
+        (tension_plan, "taut-bars"),
+    ):
+        figure = make(result)
+        (collection,) = [c for ax in figure.axes for c in ax.collections if c.get_gid() == kind]
+        assert len(collection.get_segments()) == 100
+        assert "100 of 256 bars drawn" in [text.get_text() for text in figure.findobj(Text)]
+    # Every tension keeps its own bar: the colours are those of the bars that are drawn.
+    assert len(collection.get_array()) == 100

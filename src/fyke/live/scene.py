@@ -8,10 +8,11 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike, NDArray
 
+from ..report.colours import GREY, PALETTE, linear
 from ..report.parts import Bars, Knots, Outline, parts_of
 from ..report.quantities import BarQuantity, quantities
 from ..report.space import AZIMUTH, ELEVATION
-from ..report.style import SLACK_GREY, TENSION_COLOURS, rgb
+from ..report.style import rgb
 from .study import Study
 
 Array = NDArray[np.float64]
@@ -21,14 +22,11 @@ BAR, FRAME, KNOT, EYE, GRIP = 4.0, 3.0, 0.12, 1.25, 0.12
 
 
 def _bytes(colours: ArrayLike) -> NDArray[np.uint8]:
-    """Turn colours (..., 3) of sRGB, 0 to 1, into the linear bytes that browsers render (IEC 61966-2-1)."""
-    c = np.asarray(colours, dtype=float)
-    linear = np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
-    return np.rint(255.0 * linear).astype(np.uint8)
+    """Turn colours (..., 3) of sRGB, 0 to 1, into the linear bytes that browsers render."""
+    return np.rint(255.0 * linear(colours)).astype(np.uint8)
 
 
-PALETTE = _bytes(TENSION_COLOURS(np.linspace(0.0, 1.0, 256))[:, :3])
-GREY = _bytes(rgb(SLACK_GREY))
+COLOURS, SLACK = _bytes(PALETTE), _bytes(GREY)
 
 
 class Scene:
@@ -92,8 +90,8 @@ class Scene:
         values = self.quantity.values(result, 0, self.study.current)
         self.top = float(values.max(initial=0.0)) or 1.0
         slack = result.tension[-1] <= 0.0
-        colours = PALETTE[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]
-        colours[slack] = GREY
+        colours = COLOURS[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]
+        colours[slack] = SLACK
         with self.client.atomic():
             for part in parts_of(result.net):
                 if isinstance(part, Outline):

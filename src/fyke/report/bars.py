@@ -26,6 +26,8 @@ DASHED_UP_TO = 2000  # bars; beyond, a bar is shorter on paper than a dash
 VECTORS_UP_TO = 8000  # bars; beyond, they go into a vector file as one image, which keeps it small
 KNOTS_UP_TO = 600
 MARKERS = {"square": "s", "circle": "o", "diamond": "D"}
+# Drawn of one kind; beyond, bars are finer than the dots of a page and some show as much as all.
+BARS_UP_TO = 150_000
 
 
 def tension_scale(tension: Array) -> Normalize:
@@ -45,7 +47,16 @@ def slack_name(tension: Array) -> str:
 
 
 def draw_bars(ax: Axes, points: Array, bars: Indices, **options: Any) -> LineCollection:
-    """Add one line per bar (m, 2) between points (n, 2); options are those of LineCollection."""
+    """Add one line per bar (m, 2) between points (n, 2); options are those of LineCollection.
+
+    Of more than BARS_UP_TO bars so many are drawn, spread at random but always the same ones; the legend says so.
+    """
+    if len(bars) > BARS_UP_TO:
+        some = np.sort(np.random.default_rng(0).choice(len(bars), BARS_UP_TO, replace=False))
+        options = {"label": f"{BARS_UP_TO} of {len(bars)} bars drawn", **options}
+        if "array" in options:
+            options["array"] = options["array"][some]
+        bars = bars[some]
     collection = LineCollection(
         list(points[bars]),
         **{

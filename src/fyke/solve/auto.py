@@ -33,7 +33,7 @@ NEWTON, NEWTON_BAR = 75_000.0, 700.0
 FACTOR, FACTOR_POWER = 310.0, 1.2
 # What the plan expects, as seen on panels of 3 to 32 meshes: Newton iterations of the first steps; REST m^REST_POWER
 # more until a net is at rest; the time that takes over the time in which the water crosses the net.
-FIRST, REST, REST_POWER, REST_TIME = 16, 32.0, 0.35, 0.5
+FIRST, REST, REST_POWER, REST_TIME = 16, 70.0, 0.2, 0.5
 # The implicit method may need so many times more than planned. After that leapfrog goes on for RETURN times the work
 # lost before it is tried again: what is lost on trials in vain is at most 1 / RETURN.
 PATIENCE, RETURN = 1.5, 2.0

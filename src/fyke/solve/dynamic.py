@@ -13,7 +13,7 @@ from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
 from ..system.system import State, System
 from .auto import Auto, AutoRun
-from .outcome import Outcome, OutcomeName
+from .outcome import Outcome, OutcomeName, out_of_memory
 from .result import Result
 from .stepper import Count, Memory, Run, Status, Stepper
 from .strain import strain_warnings
@@ -151,6 +151,8 @@ def simulate(
             f"stopped by hand at {run.state.time:.4g} s",
             "the frames so far are saved; fyke run --resume goes on from there",
         )
+    except MemoryError as error:
+        verdict = out_of_memory(error)
     if not frames or run.state.time > frames[-1].time:
         # Stopped between two outputs: the last good state is kept.
         frames.append(evaluate(system, run.state))

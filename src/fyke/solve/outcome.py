@@ -12,10 +12,21 @@ OutcomeName = Literal[
     "stalled",
     "singular",
     "not_finite",
+    "out_of_memory",
     "step_too_small",
     "not_settled",  # dynamic: the duration ran out before the stated criterion was met
     "interrupted",
 ]
+
+
+def out_of_memory(error: MemoryError) -> tuple[OutcomeName, str, str]:
+    """Name, message and advice for a solve that there is no room for."""
+    return (
+        "out_of_memory",
+        str(error) or "the memory ran out",
+        "group meshes so that the net has fewer knots, take a larger machine, or let an explicit stepper bring the net "
+        "to rest, which factorizes nothing; the last good state is kept",
+    )
 
 
 @dataclass(frozen=True)

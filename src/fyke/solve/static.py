@@ -25,7 +25,7 @@ from .far_field import Far
 from .linear import Factorizer, SingularMatrixError
 from .near_field import Near
 from .nested import Nested, nested_start
-from .outcome import Outcome, OutcomeName
+from .outcome import Outcome, OutcomeName, out_of_memory
 from .relaxation import relax
 from .result import Result
 from .strain import strain_warnings
@@ -85,6 +85,8 @@ def solve_static(
             name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
         except KeyboardInterrupt:
             name, message, advice = _interrupted(s)
+        except MemoryError as error:
+            name, message, advice = out_of_memory(error)
     if nest and name == "converged":
         message += f", begun from {nest.levels}"
     if name == "converged" and s.residual > tolerance:
@@ -261,9 +263,13 @@ def _out_of_iterations(s: Equilibrium) -> Verdict:
 
 
 def _no_inverse(s: Equilibrium, error: SingularMatrixError) -> Verdict:
+    where, unknown = "", error.unknown
+    if unknown is not None:
+        knot = s.system.net.labels[s.pattern.free[unknown // 3]]
+        where = f", where nothing holds knot {knot} in direction {'xyz'[unknown % 3]}"
     return (
         "singular",
-        f"the tangent has no inverse in iteration {s.iterations + 1} ({error}): {_left(s)}",
+        f"the tangent has no inverse in iteration {s.iterations + 1}{where} ({error}): {_left(s)}",
         "look for knots that nothing holds in some direction, or begin from another shape",
     )
 

@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 # Tensions that differ from the elastic law's by less than CLOSE of the mean are those of a net's own shape; others were
 # carried over from another net and say where the tension is, not which bars are just slack.
-CLOSE = 1e-2
+CLOSE = 1e-6
 # First size (N) of the smoothing T w = size^2 over the mean tension, and what a whole step leaves of the size.
 OWN, CARRIED = (1e-2, 0.1), (0.2, 0.25)
 # Least size over the first.
