@@ -1,4 +1,4 @@
-"""Speed of exports and films, beside the bare write of as many bytes on the same disk.
+"""Speed of exports and films, beside the bare write of as many bytes on the same disk; of the report and the live page.
 
 Run with `make bench-see`. Times are the best of several repeats on a machine that may be doing other things: read the
 ratios to the bare write, not the megabytes a second.
@@ -6,6 +6,7 @@ ratios to the bare write, not the megabytes a second.
 
 from __future__ import annotations
 
+import shutil
 import tempfile
 import time
 from collections.abc import Callable
@@ -19,7 +20,8 @@ from fyke.forces.evaluate import evaluate
 from fyke.report.gltf import write_gltf
 from fyke.results.export import write_csv, write_vtkhdf, write_vtu
 
-MESHES, FRAMES, REPEATS = 100, 25, 5
+EXAMPLE = Path(__file__).parent.parent / "examples" / "panel.toml"
+MESHES, FRAMES, REPEATS, TURNS = 100, 25, 5, 100
 GOAL = 100.0  # MB/s of VTKHDF and VTU
 
 
@@ -81,6 +83,61 @@ def main() -> None:
             goal = "" if what[:2] != "vt" else f" (goal {GOAL:g})"
             print(f"| {what} | {size / 1e6:.1f} | {size / took / 1e6:.0f}{goal} | {ratio:.1f} |")
     film()
+    report()
+    live_page()
+
+
+def report() -> None:
+    """Print what a report of 5 000 knots and 100 frames takes."""
+    from fyke.report.page import Origin, write_report
+    from fyke.results.derive import summary
+
+    result = shaken(50, 100)
+    with tempfile.TemporaryDirectory() as name:
+        file = Path(name) / "report.html"
+        began = time.perf_counter()
+        write_report(result, file, figures=summary(result), origin=Origin(Path("result.nc")))
+        took = time.perf_counter() - began
+        print(f"\nreport of {result.net.knot_count} knots, 100 frames: {took:.1f} s (goal 10), ", end="")
+        print(f"{file.stat().st_size / 1e6:.1f} MB (goal 8)")
+
+
+def live_page() -> None:
+    """Print how many times a second the live page follows a slider, from its event to its last message sent."""
+    from playwright.sync_api import sync_playwright
+
+    from fyke.live import serve
+
+    path = shutil.which("chromium")
+    if path is None:
+        print("\nlive page: not measured, no chromium")
+        return
+    for meshes, goal in ((8, 30), (32, 10)):
+        side = 0.9 * meshes * 0.03 * np.sqrt(2.0)
+        text = EXAMPLE.read_text(encoding="utf-8").replace("[8, 8]", f"[{meshes}, {meshes}]")
+        text = text.replace("[0.3055, 0.3055]", f"[{side}, {side}]")
+        began = time.perf_counter()
+        live = serve(text, EXAMPLE, port=18100)
+        up = time.perf_counter() - began
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+            # A window too small to draw in, so that the browser's own work does not count.
+            page = browser.new_page(viewport={"width": 60, "height": 60})
+            page.goto(live.url)
+            page.wait_for_timeout(3000)
+            mine = next(iter(live.pages.values()))
+            began = time.perf_counter()
+            for k in range(TURNS):
+                before = mine.updates
+                mine.move("current.speed", 0.3 + 0.01 * k)
+                while mine.updates == before:
+                    time.sleep(2e-4)
+            rate = TURNS / (time.perf_counter() - began)
+            browser.close()
+        live.stop()
+        print(
+            f"live page, {meshes} x {meshes} meshes: {rate:.0f} updates a second (goal {goal}), up in {up:.1f} s"
+        )
 
 
 def film() -> None:

@@ -81,7 +81,9 @@ def page() -> str:
     for name, (lines, remark) in SHOWN.items():
         sentence = (inspect.getdoc(getattr(figures, name)) or "").split("\n\n")[0]
         text = f"{sentence} {remark}".strip()
-        parts.append(f"## {name}\n\n{text}\n\n```python\n{lines}\n```\n\n![{name}](images/gallery/{name}.png)\n")
+        parts.append(
+            f"## {name}\n\n{text}\n\n```python\n{lines}\n```\n\n![{name}](images/gallery/{name}.png)\n"
+        )
     return "\n".join(parts)
 
 

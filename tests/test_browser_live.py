@@ -130,8 +130,7 @@ def test_what_is_refused_is_said_at_its_slider(visit, live):
     page = visit()
     newest = live.pages[max(live.pages)]
     before = number(page, "drag")
-    newest._turned["netting.main.bar_length"] = -1.0
-    newest._wake.set()
+    newest.move("netting.main.bar_length", -1.0)
     page.get_by_text("The net stays as it was").wait_for()
     assert number(page, "drag") == before
     slide(page, "Speed (m/s)", 0.6)

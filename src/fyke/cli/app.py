@@ -116,9 +116,7 @@ def cite(case: CaseFile) -> None:
 
 @app.command()
 def report(
-    result: Annotated[
-        Path, typer.Argument(metavar="RESULT", show_default=False, help="result.nc or the folder of a run.")
-    ],
+    result: ResultPath,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="FILE", help="Page to write; report.html beside the result."),

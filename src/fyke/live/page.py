@@ -94,12 +94,13 @@ class Page:
         )
         self._said[knob.key] = self.client.gui.add_markdown("", visible=False)
 
-        def moved(_: Any) -> None:
-            with self._lock:
-                self._turned[knob.key] = float(slider.value)
-            self._wake.set()
+        slider.on_update(lambda _: self.move(knob.key, float(slider.value)))
 
-        slider.on_update(moved)
+    def move(self, key: str, value: float) -> None:
+        """Note that a knob is wanted at a value in its unit; the worker follows."""
+        with self._lock:
+            self._turned[key] = value
+        self._wake.set()
 
     def _add_motion(self) -> None:
         gui = self.client.gui

@@ -55,7 +55,11 @@ class Scene:
         self.client.scene.set_up_direction("+z")
         camera = self.client.camera
         camera.up_direction = (0.0, 0.0, 1.0)
-        camera.position = tuple(middle + EYE * self._size * towards)
+        away = EYE * self._size
+        if camera.aspect < 1.0:
+            # On a telephone the sliders cover the lower half: further off, and looking under the net.
+            away, middle = away / camera.aspect, middle - [0.0, 0.0, 0.5 * self._size / camera.aspect]
+        camera.position = tuple(middle + away * towards)
         camera.look_at = tuple(middle)
         camera.near = 0.01 * self._size
 

@@ -17,7 +17,9 @@ from ..case.schema import DynamicSolve
 from ..forces.evaluate import evaluate
 from ..results.derive import drag_and_lift
 from ..solve.implicit import Implicit
+from ..solve.linear import Factorizer, factorizer
 from ..solve.outcome import Outcome
+from ..solve.pattern import Pattern
 from ..solve.result import Result
 from ..solve.static import solve_static
 from ..solve.stepper import Run
@@ -63,6 +65,7 @@ class Study:
         self._built: System = build_system(build_net(self.case), self.case)
         self.system: System = self._built
         self.run: Run | None = None
+        self._linear: tuple[bytes, Factorizer] | None = None
         self.result: Result = self._solved(self.system, None)
 
     @property
@@ -157,12 +160,20 @@ class Study:
     def _solved(self, system: System, begin: State | None) -> Result:
         solve = self.case.solve
         tolerance = TOLERANCE if isinstance(solve, DynamicSolve) else solve.tolerance
-        result = solve_static(system, tolerance=tolerance, start=begin)
+        linear = self._factorizer(system)
+        result = solve_static(system, tolerance=tolerance, start=begin, linear=linear)
         if not result.outcome.ok and begin is not None and not self.pins:
-            result = solve_static(system, tolerance=tolerance)
+            result = solve_static(system, tolerance=tolerance, linear=linear)
         if not result.outcome.ok:
             raise RefusedError(f"no equilibrium: {result.outcome.message}. Try: {result.outcome.advice}")
         return result
+
+    def _factorizer(self, system: System) -> Factorizer:
+        """Solver for the pattern of a system, the last one while the same knots are free."""
+        free = system.elements.free.tobytes()
+        if self._linear is None or self._linear[0] != free:
+            self._linear = free, factorizer(Pattern.of(system.elements))
+        return self._linear[1]
 
     def play(self) -> None:
         """Set the net in motion from its present shape."""

@@ -22,7 +22,7 @@ from ..space import AZIMUTH, ELEVATION
 Array = NDArray[np.float64]
 
 # Knots times frames that a page carries, which keeps it below 8 MB, and frames that a slider still tells apart.
-MOST_KNOT_FRAMES, MOST_FRAMES = 250_000, 200
+MOST_KNOT_FRAMES, MOST_FRAMES = 150_000, 200
 STEPS = 65535
 
 

@@ -5,6 +5,8 @@
   const isDark = () => (root.dataset.theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
   const colour = (name) => getComputedStyle(root).getPropertyValue(name).trim();
   const { scene, histories } = JSON.parse(byId("data").textContent);
+  /* Each figure is in the page once; its picture is also what is saved. */
+  for (const link of document.querySelectorAll("a.svg")) link.href = link.closest("figure").querySelector("img").src;
   let redraw = () => {};
   byId("theme").onclick = () => { root.dataset.theme = isDark() ? "light" : "dark"; redraw(); };
   if (!byId("plotly")) return;
@@ -131,7 +133,7 @@
     const half = high.map((h, i) => Math.max(h - low[i], 0.16 * longest) * 0.53), middle = high.map((h, i) => (h + low[i]) / 2);
     const [azimuth, elevation] = scene.eye.map((degrees) => degrees * Math.PI / 180);
     /* Further away on a narrow page, so that the whole net is in the picture. */
-    const away = 2.1 * Math.max(1, 1.1 * byId("space").clientHeight / byId("space").clientWidth);
+    const away = 2.4 * Math.max(1, 1.1 * byId("space").clientHeight / byId("space").clientWidth);
     const eye = { x: Math.cos(elevation) * Math.cos(azimuth) * away, y: Math.cos(elevation) * Math.sin(azimuth) * away, z: Math.sin(elevation) * away };
     const layout = () => {
       const axis = (name, i) => ({ title: { text: `${name} (m)` }, range: [middle[i] - half[i], middle[i] + half[i]], showbackground: false,
