@@ -22,12 +22,9 @@ from c_floor import floor_seconds
 from numba import njit
 
 import fyke
-from fyke.forces.around import BLOCK
-from fyke.forces.team import LINE, run_team
 from fyke.forces.total import total_force, work_arrays
 from fyke.solve.auto import Work
 from fyke.solve.linear import Pattern, factorizer
-from fyke.solve.symplectic import leap
 
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "panel.toml"
@@ -145,14 +142,10 @@ def force_per_bar(system: fyke.System) -> float:
 def leap_seconds(system: fyke.System, start: fyke.State, threads: int, steps: int) -> float:
     """Seconds of one leapfrog step, without the conversions at the ends of a call."""
     run = fyke.Symplectic().start(system, start)
-    around, flow = run.around, system.current.velocity(start.position, 0.0)
-    states = np.zeros((2, 2, 3, around.width))
-    states[0, 0], states[0, 1] = around.columns(start.position), around.columns(start.velocity)
-    h, u = 0.7 * run.step, around.columns(flow)
-    law, inverse = np.zeros((2, 1)), np.zeros((6, around.blocks * BLOCK))
-    rates = np.zeros((2, threads * LINE))
-    args = (states, h, steps, u, True, system.elements, around, law, inverse, rates)
-    return best(lambda: run_team(threads, leap, *args)) / (steps + 1)
+    run.threads = threads
+    assert run.advance(steps * run.step) == "ok"
+    h = 0.7 * run.step
+    return best(lambda: run.leap(h, steps, True)) / (steps + 1)
 
 
 def threads() -> list[Row]:

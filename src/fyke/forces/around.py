@@ -1,9 +1,9 @@
 """The bars around every knot, laid out so that the forces on a block of knots are worked out at full vector width.
 
-A knot gathers the forces of its own bars, so every bar is worked out twice, once for each end. That makes blocks of
-knots independent of each other: any number of threads finds the same bits, because a block is never divided. In
-netting the neighbours of knots that follow each other follow each other too: then one shift of the index serves a
-whole block, and nothing is looked up.
+A block of knots gathers the forces of its own bars: those between two of its knots are worked out once, those to other
+blocks once for each end. That makes blocks independent of each other: any number of threads finds the same bits,
+because a block is never divided. In netting the neighbours of knots that follow each other follow each other too: then
+one shift of the index serves a whole block, and nothing is looked up.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ..system.elements import Elements
+from .apart import take
 from .compiled import OPTIONS
 
 Array = NDArray[np.float64]
@@ -27,28 +28,34 @@ BLOCK = 256
 STRIDE = 8
 # Mark of a slot whose neighbours are looked up.
 SCATTERED = np.iinfo(np.int64).min
-# Part of a block's knots that a shift must serve to be worth a slot of its own.
-WORTH = 0.5
+# A shift is worth a slot of its own for so many bars, and so large a part of the knots from the first to the last.
+FEWEST, WORTH = 4, 0.5
 
-# Rows of the kernels' work arrays (WORK_ROWS, BLOCK).
-WORK_ROWS = 17
+# Fields, flat with rows of Around.width: position m and velocity m/s at two times, velocity of the water m/s.
+HERE_ROWS, WATER, FIELD_ROWS = 6, 12, 15
+# Work arrays of the kernels: flat, rows of PITCH; sums of bars may end a stride behind the last knot.
+PITCH = BLOCK + STRIDE
+# Rows of the work array of looked-up neighbours: position, velocity, velocity of the water.
+NEAR_ROWS = 9
 
 # Rows of Around.bars.
-REST_LENGTH, STIFFNESS, NORMAL, TANGENTIAL, DAMPING, ADDED = range(6)
+REST_LENGTH, STIFFNESS, NORMAL, TANGENTIAL, DAMPING, ADDED, BAR_ROWS = range(7)
 # Rows of Around.knots; 0 to 2 hold the weight.
-KNOT_DRAG, AREA, MASS, FREE = range(3, 7)
+KNOT_DRAG, AREA, MASS, FREE, KNOT_ROWS = range(3, 8)
 
 
 class Around(NamedTuple):
     """Slots of every block: in one slot each knot of the block has one bar, or none (a bar without any property).
 
-    knot_count: n; margin: columns before the first knot in the arrays of positions and velocities, (3, width) each,
-    and behind the last; first: (blocks + 1,) first slot of a block; shift: (s,) index of the neighbour less that of the
-    knot, or SCATTERED; other: (r, BLOCK) columns of looked-up neighbours, other_row: (s,) which row of it; bars:
-    (rows, 6, BLOCK) properties as in Elements, bars_row: (s,) which row; knots: (rows, 7, BLOCK) weight N, knot drag
-    kg/m, drag coefficient of all that hangs on the knot kg/m, mass kg, free; knots_row: (blocks,). Blocks and slots
-    that are alike share a row, which spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where
-    laws are not linear. linear, damped: as in Elements.
+    knot_count: n; margin: columns before the first knot in the rows of fields, and behind the last; width: length of a
+    row; first: (blocks + 1,) first slot of a block; shift: (s,) index of the neighbour less that of the knot, or
+    SCATTERED; begin, end: (s,) knots of the block, in whole strides, that have bars in the slot; both: (s,) whether the
+    neighbours lie in the block too and get their forces from this slot; other: (r, BLOCK) columns of looked-up
+    neighbours, other_row: (s,) which row of it; bars: flat (rows, BAR_ROWS, BLOCK), properties as in Elements,
+    bars_row: (s,) which row; knots: flat (rows, KNOT_ROWS, BLOCK), weight N, knot drag kg/m, drag coefficient of all
+    that hangs on the knot kg/m, mass kg, free; knots_row: (blocks,). Blocks and slots that are alike share a row, which
+    spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where laws are not linear. linear, damped:
+    as in Elements.
     """
 
     knot_count: int
@@ -56,7 +63,10 @@ class Around(NamedTuple):
     width: int
     first: Ints
     shift: Ints
-    other: NDArray[np.uint32]
+    begin: Ints
+    end: Ints
+    both: NDArray[np.bool_]
+    other: NDArray[np.int64]
     other_row: Ints
     bars: Array
     bars_row: Ints
@@ -71,43 +81,58 @@ class Around(NamedTuple):
         """Number of blocks."""
         return len(self.first) - 1
 
-    def columns(self, rows: Array) -> Array:
-        """Turn (n, 3) into (3, width) with margins of zeros."""
-        out = np.zeros((3, self.width))
-        out[:, self.margin : self.margin + self.knot_count] = rows.T
-        return out
+    def fields(self) -> Array:
+        """Return fields of zeros."""
+        return np.zeros(FIELD_ROWS * self.width)
 
-    def rows(self, columns: Array) -> Array:
-        """Turn (3, width) back into (n, 3)."""
-        return np.ascontiguousarray(columns[:, self.margin : self.margin + self.knot_count].T)
+    def write(self, fields: Array, row: int, values: Array) -> None:
+        """Write (n, 3) into three rows of fields from row on."""
+        fields.reshape(FIELD_ROWS, self.width)[row : row + 3, self.margin : self.margin + self.knot_count] = (
+            values.T
+        )
+
+    def read(self, fields: Array, row: int) -> Array:
+        """Return three rows of fields from row on as (n, 3)."""
+        rows = fields.reshape(FIELD_ROWS, self.width)[row : row + 3]
+        return np.ascontiguousarray(rows[:, self.margin : self.margin + self.knot_count].T)
 
 
 @njit(**OPTIONS)
-def differences(slot, here, size, a, around, g, row):
-    """What a (3, width) has at the neighbours less what it has at the knots of a block, into three rows of g.
+def own_fields(old, here, water, fields, around):
+    """Where the fields of a block's knots lie: array, pitch of its rows, places of x, v and u of the first knot.
 
-    here: column of the block's first knot; indices are unsigned so that none is taken for one from the end.
+    old: row of x in fields; here: column of the block's first knot; water: column of the velocity of the water at it.
     """
-    if around.shift[slot] != SCATTERED:
-        there = here + np.uint64(around.shift[slot])
-        for q in range(3):
-            for i in range(size):
-                g[row + q, i] = a[q, there + i] - a[q, here + i]
-    else:
-        other = around.other_row[slot]
-        for i in range(size):
-            j = around.other[other, i]
-            g[row, i] = a[0, j] - a[0, here + i]
-            g[row + 1, i] = a[1, j] - a[1, here + i]
-            g[row + 2, i] = a[2, j] - a[2, here + i]
+    width = around.width
+    return fields, width, old * width + here, (old + 3) * width + here, WATER * width + water
+
+
+@njit(**OPTIONS)
+def neighbours(slot, old, here, water, fields, around, near):
+    """Where the fields of the neighbours of a block's knots lie in one slot, as own_fields says it.
+
+    old, here, water: as there; near: work array (NEAR_ROWS x PITCH,) for the neighbours that have to be looked up.
+    """
+    shift, width = around.shift[slot], around.width
+    if shift != SCATTERED:
+        there = here + shift
+        return own_fields(old, there, there if water == here else water, fields, around)
+    other = around.other_row[slot] * BLOCK
+    for q in range(3):
+        for i in range(around.begin[slot], around.end[slot]):
+            j = take(around.other, other + i)
+            near[q * PITCH + i] = take(fields, (old + q) * width + j)
+            near[(3 + q) * PITCH + i] = take(fields, (old + 3 + q) * width + j)
+            near[(6 + q) * PITCH + i] = take(fields, (WATER + q) * width + j)
+    return near, PITCH, 0, 3 * PITCH, 6 * PITCH
 
 
 @njit(**OPTIONS)
 def extent(block, around):
-    """First column and number of the knots of a block, unsigned; rounded up to a STRIDE with knots without anything."""
+    """First column and number of the knots of a block, rounded up to a STRIDE with knots without anything."""
     low = block * BLOCK
     strides = (min(BLOCK, around.knot_count - low) + STRIDE - 1) // STRIDE
-    return np.uint64(around.margin + low), np.uint64(strides * STRIDE)
+    return around.margin + low, strides * STRIDE
 
 
 class _Shared:
@@ -160,9 +185,12 @@ def bars_around(el: Elements) -> Around:
         width=2 * margin + blocks * BLOCK,
         first=np.array(slots.first),
         shift=np.array(slots.shift, dtype=np.int64),
-        other=np.array(slots.other, dtype=np.uint32).reshape(-1, BLOCK),
+        begin=np.array(slots.begin, dtype=np.int64),
+        end=np.array(slots.end, dtype=np.int64),
+        both=np.array(slots.both, dtype=bool),
+        other=np.array(slots.other, dtype=np.int64).reshape(-1, BLOCK),
         other_row=np.array(slots.other_row, dtype=np.int64),
-        bars=np.array(slots.bars.kept).reshape(-1, 6, BLOCK),
+        bars=np.array(slots.bars.kept).reshape(-1),
         bars_row=np.array(slots.bars_row, dtype=np.int64),
         knots=own,
         knots_row=own_row,
@@ -189,19 +217,23 @@ class _SlotTable:
         self.look_up_bars, self.margin = not el.linear, margin
         self.bars = _Shared()
         self.first, self.shift, self.bars_row, self.other_row = [0], [], [], []  # type: ignore[var-annotated]
+        self.begin, self.end, self.both = [], [], []  # type: ignore[var-annotated]
         self.other: list[Ints] = []
         self.bar: list[Ints] = []
 
     def add_block(self, low: int, size: int, ends: _Ends) -> None:
         """Add the slots of the knots from low on, which are numbered from 0 in ends."""
         none = self.properties.shape[1]
-        for which, step in _slots(ends, size):
+        for which, step, both in _slots(ends, size):
             place, bar = ends.knot[which], ends.bar[which]
-            row = np.zeros((6, BLOCK))
+            row = np.zeros((BAR_ROWS, BLOCK))
             row[REST_LENGTH] = 1.0
             row[:, place] = self.properties[:, bar]
             self.bars_row.append(self.bars.keep(row))
             self.shift.append(step)
+            self.begin.append(place.min() // STRIDE * STRIDE)
+            self.end.append(-(-(place.max() + 1) // STRIDE) * STRIDE)
+            self.both.append(both)
             self.other_row.append(len(self.other))
             if step == SCATTERED:
                 column = self.margin + low + np.arange(BLOCK)
@@ -214,18 +246,26 @@ class _SlotTable:
         self.first.append(len(self.shift))
 
 
-def _slots(ends: _Ends, size: int) -> Iterator[tuple[Ints, int]]:
-    """Ends that share a slot, and their shift or SCATTERED."""
-    shifts, served = np.unique(ends.away[~ends.twin], return_counts=True)
-    shifts = shifts[served >= WORTH * size]
-    goes = np.isin(ends.away, shifts) & ~ends.twin
-    for shift in shifts.tolist():
-        yield np.flatnonzero(goes & (ends.away == shift)), shift
-    rest = np.flatnonzero(~goes)
+def _slots(ends: _Ends, size: int) -> Iterator[tuple[Ints, int, bool]]:
+    """Ends that share a slot, their shift or SCATTERED, and whether the ends of the same bars at the neighbours do."""
+    there = ends.knot + ends.away
+    inside = (there >= 0) & (there < size)
+    left = np.ones(len(ends.knot), dtype=bool)
+    for both in (True, False):
+        may = ~ends.twin & ((inside & (ends.away > 0)) if both else ~inside)
+        shifts, served = np.unique(ends.away[may], return_counts=True)
+        for shift in shifts[served >= FEWEST].tolist():
+            which = np.flatnonzero(may & (ends.away == shift))
+            if len(which) >= WORTH * (ends.knot[which[-1]] - ends.knot[which[0]] + 1):
+                left[which] = False
+                if both:
+                    left &= ~((ends.away == -shift) & inside & ~ends.twin)
+                yield which, shift, both
+    rest = np.flatnonzero(left)
     rest = rest[np.argsort(ends.knot[rest], kind="stable")]
     rank = np.arange(len(rest)) - np.searchsorted(ends.knot[rest], ends.knot[rest])
     for slot in range(rank.max(initial=-1) + 1):
-        yield rest[rank == slot], SCATTERED
+        yield rest[rank == slot], SCATTERED, False
 
 
 def _knot_rows(el: Elements, blocks: int) -> tuple[Array, Ints]:
@@ -233,8 +273,8 @@ def _knot_rows(el: Elements, blocks: int) -> tuple[Array, Ints]:
     area = el.knot_drag.copy()
     for end in (el.knot_a, el.knot_b):
         np.add.at(area, end, el.normal_drag * el.rest_length)
-    own = np.zeros((7, blocks * BLOCK))
+    own = np.zeros((KNOT_ROWS, blocks * BLOCK))
     own[:, : len(el.free)] = (*el.weight.T, el.knot_drag, area, el.knot_mass, el.free)
     shared = _Shared()
     row = [shared.keep(own[:, k * BLOCK : (k + 1) * BLOCK].copy()) for k in range(blocks)]
-    return np.array(shared.kept).reshape(-1, 7, BLOCK), np.array(row, dtype=np.int64)
+    return np.array(shared.kept).reshape(-1), np.array(row, dtype=np.int64)

@@ -4,7 +4,7 @@ Per knot, equations (1) to (6) of the panel model: F = tension + water + weight 
     bar:   T t on end a, -T t on end b, T by the elastic law plus Kelvin-Voigt damping, never below zero;
            c_n L |w_n| w_n + c_t L |w_t| w_t on each end, w the velocity of the water relative to the bar's middle;
     knot:  1/2 rho C_D pi/4 d_k^2 |w| w.
-Positions x, velocities v and velocities u of the water are (3, width) m, m/s, as forces.around lays them out.
+Positions x, velocities v and velocities u of the water lie in fields as forces.around lays them out.
 """
 
 from __future__ import annotations
@@ -12,33 +12,45 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from .apart import keep, kept, put, summed, take
 from .around import (
+    BAR_ROWS,
     BLOCK,
     DAMPING,
     KNOT_DRAG,
+    KNOT_ROWS,
     NORMAL,
+    PITCH,
     REST_LENGTH,
     STIFFNESS,
     TANGENTIAL,
-    differences,
     extent,
+    neighbours,
+    own_fields,
 )
 from .compiled import OPTIONS
 from .drag import bar_water_force
 from .tension import law_tension
 from .total import TINY_LENGTH
 
-# Rows of the work array g (WORK_ROWS, BLOCK), after the force in 0 to 2 and the velocity of the water relative to the
-# knots in 3 to 5; three rows each: neighbour less knot of x, v and u. Tension is SLOPE x stretch + OFFSET.
-ALONG, PASSING, SHEAR, SLOPE, OFFSET = 6, 9, 12, 15, 16
+# Rows of the work array g (WORK_ROWS x PITCH,): the force in 0 to 2, speed of the water past the knots, force on the
+# far ends of bars; tension is SLOPE x stretch + OFFSET.
+SPEED, FAR, SLOPE, OFFSET, WORK_ROWS = 3, 4, 13, 14, 15
 
 
 @njit(**OPTIONS)
-def laws_of_bars(start, end, x, el, around, law):
-    """Slope dT/dl (N/m) of bars start .. end and tension less slope x stretch (N) into law (2, m + 1)."""
+def laws_of_bars(start, end, old, fields, el, around, law):
+    """Slope dT/dl (N/m) of bars start .. end and tension less slope x stretch (N) into law (2, m + 1).
+
+    old: row of x in fields.
+    """
     for e in range(start, end):
-        a, b = around.margin + el.knot_a[e], around.margin + el.knot_b[e]
-        length = np.sqrt((x[0, b] - x[0, a]) ** 2 + (x[1, b] - x[1, a]) ** 2 + (x[2, b] - x[2, a]) ** 2)
+        first = old * around.width + around.margin
+        a, b = first + np.int64(el.knot_a[e]), first + np.int64(el.knot_b[e])
+        square = 0.0
+        for q in range(3):
+            square += (take(fields, b + q * around.width) - take(fields, a + q * around.width)) ** 2
+        length = np.sqrt(square)
         stretch = length - el.rest_length[e]
         law[0, e] = law[1, e] = 0.0
         if stretch > 0.0:
@@ -49,72 +61,106 @@ def laws_of_bars(start, end, x, el, around, law):
 
 
 @njit(**OPTIONS)
-def share_laws(rank, team, x, el, around, law):
+def share_laws(rank, team, old, fields, el, around, law):
     """Do one thread's share of laws_of_bars; whole blocks, so that no bit depends on the number of threads."""
     bars = el.knot_a.shape[0]
     blocks = (bars + BLOCK - 1) // BLOCK
     for block in range(blocks * rank // team, blocks * (rank + 1) // team):
-        laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), x, el, around, law)
+        laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), old, fields, el, around, law)
 
 
 @njit(**OPTIONS)
-def block_force(block, x, v, u, uniform, around, law, g):
-    """Force on every knot of a block into g[0:3] N, velocity of the water relative to the knots into g[3:6] m/s.
+def block_force(block, old, uniform, fields, around, law, near, g):
+    """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
-    uniform: u is the same everywhere; law: (2, m + 1) as laws_of_bars gives it, used where laws are not linear; g:
-    (WORK_ROWS, BLOCK), zero before the first call.
+    old: row of x in fields; uniform: the water has the same velocity everywhere; law: (2, m + 1) as laws_of_bars gives
+    it, used where laws are not linear; near: work array (NEAR_ROWS x PITCH,); g: (WORK_ROWS x PITCH,), OFFSET zero.
     """
     here, size = extent(block, around)
-    own = around.knots_row[block]
-    for i in range(size):
-        p, q, r = (
-            u[0, here + i] - v[0, here + i],
-            u[1, here + i] - v[1, here + i],
-            u[2, here + i] - v[2, here + i],
-        )
-        c = around.knots[own, KNOT_DRAG, i] * np.sqrt(p * p + q * q + r * r)
-        g[0, i] = around.knots[own, 0, i] + c * p
-        g[1, i] = around.knots[own, 1, i] + c * q
-        g[2, i] = around.knots[own, 2, i] + c * r
-        g[3, i], g[4, i], g[5, i] = p, q, r
+    water = around.margin if uniform else here
+    own = own_fields(old, here, water, fields, around)
+    _own_forces(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, g)
     for slot in range(around.first[block], around.first[block + 1]):
-        differences(slot, here, size, x, around, g, ALONG)
-        differences(slot, here, size, v, around, g, PASSING)
-        if not uniform:
-            differences(slot, here, size, u, around, g, SHEAR)
-        bar = around.bars_row[slot]
-        for i in range(size):
-            g[SLOPE, i] = around.bars[bar, STIFFNESS, i]
+        begin, end = around.begin[slot], around.end[slot]
+        slopes, slope = around.bars, (around.bars_row[slot] * BAR_ROWS + STIFFNESS) * BLOCK
         if not around.linear:
-            for i in range(size):
-                g[SLOPE, i] = law[0, around.bar[slot, i]]
-                g[OFFSET, i] = law[1, around.bar[slot, i]]
-        _add_bars(bar, size, around, g)
+            slopes, slope = g, SLOPE * PITCH
+            for i in range(begin, end):
+                g[SLOPE * PITCH + i] = law[0, around.bar[slot, i]]
+                g[OFFSET * PITCH + i] = law[1, around.bar[slot, i]]
+        _add_bars(
+            slot, own, neighbours(slot, old, here, water, fields, around, near), slopes, slope, around, g
+        )
+        if around.both[slot]:
+            shift = around.shift[slot]
+            for i in range(begin, end):
+                put(g, shift + i, summed(g, shift + i) + kept(g, FAR * PITCH + i))
+                put(g, PITCH + shift + i, summed(g, PITCH + shift + i) + kept(g, (FAR + 1) * PITCH + i))
+                put(
+                    g,
+                    2 * PITCH + shift + i,
+                    summed(g, 2 * PITCH + shift + i) + kept(g, (FAR + 2) * PITCH + i),
+                )
 
 
 @njit(**OPTIONS)
-def _add_bars(bar, size, around, g):
-    """Add the forces of one slot's bars to g[0:3]; bar: row of their properties."""
-    bars = around.bars
+def _own_forces(size, own, first, knots, g):
+    """Weight and knot drag into rows 0 to 2 of g, speed of the water past the knots into SPEED.
+
+    own: as own_fields gives it; first: place of the first knot's weight in knots.
+    """
+    fields, width, _, v, u = own
     for i in range(size):
-        dx, dy, dz = g[6, i], g[7, i], g[8, i]
+        p = take(fields, u + i) - take(fields, v + i)
+        q = take(fields, u + width + i) - take(fields, v + width + i)
+        r = take(fields, u + 2 * width + i) - take(fields, v + 2 * width + i)
+        speed = np.sqrt(p * p + q * q + r * r)
+        c = take(knots, first + KNOT_DRAG * BLOCK + i) * speed
+        put(g, i, take(knots, first + i) + c * p)
+        put(g, PITCH + i, take(knots, first + BLOCK + i) + c * q)
+        put(g, 2 * PITCH + i, take(knots, first + 2 * BLOCK + i) + c * r)
+        put(g, SPEED * PITCH + i, speed)
+
+
+@njit(**OPTIONS)
+def _add_bars(slot, own, others, slopes, slope, around, g):
+    """Add the forces of one slot's bars to rows 0 to 2 of g; those on their far ends into FAR.
+
+    own, others: fields of the knots and their neighbours as own_fields gives them; slope: place of dT/dl of the first
+    knot's bar in slopes.
+    """
+    fields, width, x, v, u = own
+    far, pitch, far_x, far_v, far_u = others
+    bars, bar = around.bars, around.bars_row[slot] * BAR_ROWS * BLOCK
+    for i in range(around.begin[slot], around.end[slot]):
+        dx = take(far, far_x + i) - take(fields, x + i)
+        dy = take(far, far_x + pitch + i) - take(fields, x + width + i)
+        dz = take(far, far_x + 2 * pitch + i) - take(fields, x + 2 * width + i)
+        v0, w0 = take(fields, v + i), take(far, far_v + i)
+        v1, w1 = take(fields, v + width + i), take(far, far_v + pitch + i)
+        v2, w2 = take(fields, v + 2 * width + i), take(far, far_v + 2 * pitch + i)
         length = np.sqrt(dx * dx + dy * dy + dz * dz)
         inverse = 1.0 / max(length, TINY_LENGTH)
         tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
         fx, fy, fz = bar_water_force(
-            g[3, i] + 0.5 * (g[12, i] - g[9, i]),
-            g[4, i] + 0.5 * (g[13, i] - g[10, i]),
-            g[5, i] + 0.5 * (g[14, i] - g[11, i]),
+            0.5 * (take(fields, u + i) + take(far, far_u + i) - v0 - w0),
+            0.5 * (take(fields, u + width + i) + take(far, far_u + pitch + i) - v1 - w1),
+            0.5 * (take(fields, u + 2 * width + i) + take(far, far_u + 2 * pitch + i) - v2 - w2),
             tx,
             ty,
             tz,
-            bars[bar, NORMAL, i] * length,
-            bars[bar, TANGENTIAL, i] * length,
+            take(bars, bar + NORMAL * BLOCK + i) * length,
+            take(bars, bar + TANGENTIAL * BLOCK + i) * length,
         )
-        stretch = length - bars[bar, REST_LENGTH, i]
-        rate = g[9, i] * tx + g[10, i] * ty + g[11, i] * tz
-        tension = g[SLOPE, i] * (stretch + bars[bar, DAMPING, i] * rate) + g[OFFSET, i]
+        stretch = length - take(bars, bar + REST_LENGTH * BLOCK + i)
+        rate = (w0 - v0) * tx + (w1 - v1) * ty + (w2 - v2) * tz
+        tension = take(slopes, slope + i) * (stretch + take(bars, bar + DAMPING * BLOCK + i) * rate)
+        tension += take(g, OFFSET * PITCH + i)
         tension = max(tension, 0.0) if stretch > 0.0 else 0.0
-        g[0, i] += fx + tension * tx
-        g[1, i] += fy + tension * ty
-        g[2, i] += fz + tension * tz
+        px, py, pz = tension * tx, tension * ty, tension * tz
+        put(g, i, summed(g, i) + (fx + px))
+        put(g, PITCH + i, summed(g, PITCH + i) + (fy + py))
+        put(g, 2 * PITCH + i, summed(g, 2 * PITCH + i) + (fz + pz))
+        keep(g, FAR * PITCH + i, fx - px)
+        keep(g, (FAR + 1) * PITCH + i, fy - py)
+        keep(g, (FAR + 2) * PITCH + i, fz - pz)

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from .around import ADDED, FREE, MASS, differences, extent
+from .apart import keep, kept, put, summed, take
+from .around import ADDED, BAR_ROWS, BLOCK, FREE, KNOT_ROWS, MASS, PITCH, extent, neighbours, own_fields
 from .compiled import OPTIONS
 from .total import TINY_LENGTH
 
@@ -58,55 +59,85 @@ def invert_masses(mass, free):
         mass[i, 5] = s * (xy * xz - xx * yz)
 
 
-@njit(**OPTIONS)
-def block_inverse_masses(block, x, v, around, g, inverse):
-    """Inverse masses of a block of knots into inverse (6, blocks x BLOCK) 1/kg, zero for held knots.
+# Rows of the work array of block_inverse_masses: entries of the masses, then those of one slot's bars, then rates.
+_OF_BARS, _RATE = 6, 12
 
-    x, v: (3, width) as forces.around lays them out; g: work array. Returns the square of the largest rate (1/s2) at
-    which one of their bars with added mass turns or stretches.
+
+@njit(**OPTIONS)
+def block_inverse_masses(block, old, fields, around, near, g, inverse):
+    """Inverse masses of a block of knots into inverse, flat (blocks, 6, BLOCK) 1/kg, zero for held knots.
+
+    old: row of x in fields, as forces.around lays them out; near, g: work arrays as in forces.gather. Returns the
+    square of the largest rate (1/s2) at which one of their bars with added mass turns or stretches.
     """
     here, size = extent(block, around)
-    own = around.knots_row[block]
+    mine = own_fields(old, here, here, fields, around)
+    own = around.knots_row[block] * KNOT_ROWS * BLOCK
     for i in range(size):
-        g[0, i] = g[1, i] = g[2, i] = around.knots[own, MASS, i]
-        g[3, i] = g[4, i] = g[5, i] = g[12, i] = 0.0
+        mass = take(around.knots, own + MASS * BLOCK + i)
+        for q in range(3):
+            put(g, q * PITCH + i, mass)
+            put(g, (3 + q) * PITCH + i, 0.0)
+        put(g, _RATE * PITCH + i, 0.0)
     for slot in range(around.first[block], around.first[block + 1]):
-        differences(slot, here, size, x, around, g, 6)
-        differences(slot, here, size, v, around, g, 9)
-        bar = around.bars_row[slot]
-        for i in range(size):
-            dx, dy, dz, p, q, r = g[6, i], g[7, i], g[8, i], g[9, i], g[10, i], g[11, i]
-            m = around.bars[bar, ADDED, i]
-            inverse_square = 1.0 / max(dx * dx + dy * dy + dz * dz, TINY_LENGTH)
-            c = m * inverse_square
-            rate = (p * p + q * q + r * r) * inverse_square if m > 0.0 else 0.0
-            g[12, i] = max(g[12, i], rate)
-            g[0, i] += m - c * dx * dx
-            g[1, i] += m - c * dy * dy
-            g[2, i] += m - c * dz * dz
-            g[3, i] -= c * dx * dy
-            g[4, i] -= c * dx * dz
-            g[5, i] -= c * dy * dz
+        begin, end = around.begin[slot], around.end[slot]
+        _add_masses(slot, mine, neighbours(slot, old, here, here, fields, around, near), around, g)
+        if around.both[slot]:
+            for q in range(6):
+                for i in range(begin, end):
+                    k = q * PITCH + around.shift[slot] + i
+                    put(g, k, summed(g, k) + kept(g, (_OF_BARS + q) * PITCH + i))
     fastest = 0.0
     for i in range(size):
-        fastest = max(fastest, g[12, i])
-        g[12, i] = 0.0
-    low = here - np.uint64(around.margin)
+        fastest = max(fastest, summed(g, _RATE * PITCH + i))
     for i in range(size):
-        xx, yy, zz, xy, xz, yz = g[0, i], g[1, i], g[2, i], g[3, i], g[4, i], g[5, i]
+        xx, yy, zz = summed(g, i), summed(g, PITCH + i), summed(g, 2 * PITCH + i)
+        xy, xz, yz = summed(g, 3 * PITCH + i), summed(g, 4 * PITCH + i), summed(g, 5 * PITCH + i)
         c0 = yy * zz - yz * yz
         c1 = xz * yz - xy * zz
         c2 = xy * yz - xz * yy
         determinant = xx * c0 + xy * c1 + xz * c2
         # A held knot may have no mass.
-        s = 1.0 / determinant if around.knots[own, FREE, i] > 0.0 else 0.0
-        inverse[0, low + i] = s * c0
-        inverse[1, low + i] = s * (xx * zz - xz * xz)
-        inverse[2, low + i] = s * (xx * yy - xy * xy)
-        inverse[3, low + i] = s * c1
-        inverse[4, low + i] = s * c2
-        inverse[5, low + i] = s * (xy * xz - xx * yz)
+        s = 1.0 / determinant if take(around.knots, own + FREE * BLOCK + i) > 0.0 else 0.0
+        k = block * 6 * BLOCK + i
+        keep(inverse, k, s * c0)
+        keep(inverse, k + BLOCK, s * (xx * zz - xz * xz))
+        keep(inverse, k + 2 * BLOCK, s * (xx * yy - xy * xy))
+        keep(inverse, k + 3 * BLOCK, s * c1)
+        keep(inverse, k + 4 * BLOCK, s * c2)
+        keep(inverse, k + 5 * BLOCK, s * (xy * xz - xx * yz))
     return fastest
+
+
+@njit(**OPTIONS)
+def _add_masses(slot, own, others, around, g):
+    """Add the added masses of one slot's bars to rows 0 to 5 of g and keep them; arguments as in gather._add_bars."""
+    fields, width, x, v, _ = own
+    far, pitch, far_x, far_v, _ = others
+    bars, added = around.bars, (around.bars_row[slot] * BAR_ROWS + ADDED) * BLOCK
+    for i in range(around.begin[slot], around.end[slot]):
+        dx = take(far, far_x + i) - take(fields, x + i)
+        dy = take(far, far_x + pitch + i) - take(fields, x + width + i)
+        dz = take(far, far_x + 2 * pitch + i) - take(fields, x + 2 * width + i)
+        p = take(far, far_v + i) - take(fields, v + i)
+        q = take(far, far_v + pitch + i) - take(fields, v + width + i)
+        r = take(far, far_v + 2 * pitch + i) - take(fields, v + 2 * width + i)
+        m = take(bars, added + i)
+        inverse_square = 1.0 / max(dx * dx + dy * dy + dz * dz, TINY_LENGTH)
+        c = m * inverse_square
+        rate = (p * p + q * q + r * r) * inverse_square if m > 0.0 else 0.0
+        put(g, _RATE * PITCH + i, max(summed(g, _RATE * PITCH + i), rate))
+        entries = (
+            m - c * dx * dx,
+            m - c * dy * dy,
+            m - c * dz * dz,
+            -c * dx * dy,
+            -c * dx * dz,
+            -c * dy * dz,
+        )
+        for k in range(6):
+            put(g, k * PITCH + i, summed(g, k * PITCH + i) + entries[k])
+            keep(g, (_OF_BARS + k) * PITCH + i, entries[k])
 
 
 @njit(**OPTIONS)

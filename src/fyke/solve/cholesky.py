@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 # GMRES ends at this residual, over the right side, in the Euclidean norm, or after so many iterations.
 TOLERANCE, MOST_ITERATIONS = 1e-12, 60
 # Bytes that CHOLMOD takes for n unknowns, over n log2(n): as in engines.
-_CHOLMOD = 45.0
+_CHOLMOD = 53.0
 
 
 class Cholmod:

@@ -43,7 +43,7 @@ class Engine(Protocol):
 # What rslab raises for a matrix without inverse.
 _FAULTS = (RuntimeError, ValueError, ArithmeticError)
 # Bytes that rslab's symbolic analysis takes for every entry of the matrix, on panels of 1 to 3 million unknowns.
-_ANALYSIS = 75.0
+_ANALYSIS = 85.0
 # Least fill is as good as any order of rslab's on nets up to 3 million unknowns, and alone it takes a half to a seventh
 # of the time of comparing them all. Narrow supernodes store fewer zeros, which quickens the solves by a fifth.
 _LU_SETTINGS = {"ordering": "amf", "nemin": 8}

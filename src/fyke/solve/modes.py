@@ -19,6 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.linalg import eigh
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import LinearOperator, eigsh
+from threadpoolctl import threadpool_limits
 
 from ..forces.bars import assemble, bar_geometry, elastic
 from ..forces.inertia import mass_matrices
@@ -92,7 +93,10 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     if size <= max(DENSE, 3 * count):
         square, vectors = _all(stiffness, mass, shift, count)
     else:
-        square, vectors = _lowest(_inverse(stiffness, mass, shift, pattern), mass, shift, count)
+        solve = _inverse(stiffness, mass, shift, pattern)
+        # Lanczos' short BLAS products gain nothing from threads, which would fight with those of the solves.
+        with threadpool_limits(1, user_api="blas"):
+            square, vectors = _lowest(solve, mass, shift, count)
     shape = np.zeros((count, n, 3))
     shape[:, pattern.free] = vectors.reshape(count, len(pattern.free), 3)
     return Modes(np.sqrt(np.where(square > shift, square, 0.0)), _scaled(shape), loose)
@@ -184,8 +188,7 @@ def _lowest(solve: Solve, mass: sp.bsr_matrix, shift: float, count: int) -> tupl
 
         def inverse(b: Array) -> Array:
             y: Array = solve(np.ascontiguousarray(b))
-            # Sums by einsum: the threads of a BLAS product would fight with those of the solve.
-            y -= np.einsum("s,si->i", np.einsum("si,i->s", known_mass, y), known)
+            y -= (known_mass @ y) @ known
             return y
 
         operator = LinearOperator((size, size), matvec=inverse, dtype=float)

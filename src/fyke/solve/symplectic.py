@@ -18,9 +18,20 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..forces.around import AREA, BLOCK, WORK_ROWS, bars_around, extent
+from ..forces.apart import keep, kept, leave, settle, summed, take
+from ..forces.around import (
+    AREA,
+    BLOCK,
+    HERE_ROWS,
+    KNOT_ROWS,
+    NEAR_ROWS,
+    PITCH,
+    WATER,
+    bars_around,
+    extent,
+)
 from ..forces.compiled import OPTIONS
-from ..forces.gather import block_force, share_laws
+from ..forces.gather import FAR, SPEED, WORK_ROWS, block_force, share_laws
 from ..forces.inertia import block_inverse_masses
 from ..forces.team import LINE, meet, run_team, threads_for
 from ..system.system import State, System
@@ -41,53 +52,52 @@ TINY_SQUARE = 1e-300
 
 
 @njit(**OPTIONS)
-def _kick_and_drift(block, old, new, kick, drift, around, inverse, g):
+def _kick_and_drift(block, old, new, kick, drift, around, inverse, fields, g):
     """Change velocities of a block by the forces over a time kick (s), then positions over a time drift (s).
 
-    old, new: (2, 3, width) positions m and velocities m/s; g: work array with what block_force left there.
+    old, new: rows of x in fields before and after; g: work array with what block_force left there.
     """
     here, size = extent(block, around)
-    low, own = here - np.uint64(around.margin), around.knots_row[block]
+    area = (around.knots_row[block] * KNOT_ROWS + AREA) * BLOCK
     for i in range(size):
-        w = np.sqrt(g[3, i] * g[3, i] + g[4, i] * g[4, i] + g[5, i] * g[5, i])
-        hc = kick * around.knots[own, AREA, i] * w
-        f0, f1, f2, k = g[0, i], g[1, i], g[2, i], low + i
-        m0, m1, m2, m3, m4, m5 = (
-            inverse[0, k],
-            inverse[1, k],
-            inverse[2, k],
-            inverse[3, k],
-            inverse[4, k],
-            inverse[5, k],
-        )
+        hc = kick * take(around.knots, area + i) * summed(g, SPEED * PITCH + i)
+        f0, f1, f2, k = summed(g, i), summed(g, PITCH + i), summed(g, 2 * PITCH + i), block * 6 * BLOCK + i
+        m0, m1, m2 = kept(inverse, k), kept(inverse, k + BLOCK), kept(inverse, k + 2 * BLOCK)
+        m3, m4, m5 = kept(inverse, k + 3 * BLOCK), kept(inverse, k + 4 * BLOCK), kept(inverse, k + 5 * BLOCK)
         a0, a1, a2 = m0 * f0 + m3 * f1 + m4 * f2, m3 * f0 + m1 * f1 + m5 * f2, m4 * f0 + m5 * f1 + m2 * f2
         b0, b1, b2 = m0 * a0 + m3 * a1 + m4 * a2, m3 * a0 + m1 * a1 + m5 * a2, m4 * a0 + m5 * a1 + m2 * a2
         square = a0 * a0 + a1 * a1 + a2 * a2
         s = hc * square / max(square + hc * (a0 * b0 + a1 * b1 + a2 * b2), TINY_SQUARE)
-        g[6, i], g[7, i], g[8, i] = kick * (a0 - s * b0), kick * (a1 - s * b1), kick * (a2 - s * b2)
+        keep(g, FAR * PITCH + i, kick * (a0 - s * b0))
+        keep(g, (FAR + 1) * PITCH + i, kick * (a1 - s * b1))
+        keep(g, (FAR + 2) * PITCH + i, kick * (a2 - s * b2))
+    width = around.width
     for q in range(3):
+        x, v = (old + q) * width + here, (old + 3 + q) * width + here
+        then_x, then_v = (new + q) * width + here, (new + 3 + q) * width + here
         for i in range(size):
-            v = old[1, q, here + i] + g[6 + q, i]
-            new[1, q, here + i] = v
-            new[0, q, here + i] = old[0, q, here + i] + drift * v
+            speed = take(fields, v + i) + kept(g, (FAR + q) * PITCH + i)
+            leave(fields, then_v + i, speed)
+            leave(fields, then_x + i, take(fields, x + i) + drift * speed)
 
 
 @njit(**OPTIONS)
-def leap(rank, team, signal, states, h, steps, u, uniform, el, around, law, inverse, rates):
+def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse, rates):
     """Take so many steps of h (s) as one of a team; x and v at the same time before and after.
 
-    states: (2, 2, 3, width) positions m and velocities m/s, the first of which is the start; the last lies in
-    states[(steps + 1) % 2]; u: (3, width) m/s, uniform when the same everywhere; law: (2, m + 1); inverse:
-    (6, blocks x BLOCK); rates: (2, team x LINE).
+    fields: as forces.around lays them out; x begins in row 0 and ends in row 0 after an odd number of steps, else in
+    row HERE_ROWS; uniform: the water has the same velocity everywhere; law: (2, m + 1); inverse: flat
+    (blocks, 6, BLOCK); rates: (2, team x LINE).
     """
     blocks = around.first.shape[0] - 1
     first, last = blocks * rank // team, blocks * (rank + 1) // team
-    g = np.zeros((WORK_ROWS, BLOCK))
+    near, g = np.zeros(NEAR_ROWS * PITCH), np.zeros(WORK_ROWS * PITCH)
     lag = 0
     for step in range(steps + 1):
-        old, new = states[step & 1], states[1 - (step & 1)]
+        old = HERE_ROWS * (step & 1)
+        new = HERE_ROWS - old
         if not around.linear:
-            share_laws(rank, team, old[0], el, around, law)
+            share_laws(rank, team, old, fields, el, around, law)
             if not meet(signal, team):
                 return
         renew = lag <= 0
@@ -95,10 +105,11 @@ def leap(rank, team, signal, states, h, steps, u, uniform, el, around, law, inve
         kick = h if 0 < step < steps else 0.5 * h
         for block in range(first, last):
             if renew:
-                fastest = max(fastest, block_inverse_masses(block, old[0], old[1], around, g, inverse))
-            block_force(block, old[0], old[1], u, uniform, around, law, g)
-            _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, g)
+                fastest = max(fastest, block_inverse_masses(block, old, fields, around, near, g, inverse))
+            block_force(block, old, uniform, fields, around, law, near, g)
+            _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, fields, g)
         rates[step & 1, rank * LINE] = fastest
+        settle()
         if not meet(signal, team):
             return
         lag -= 1
@@ -140,8 +151,8 @@ class SymplecticRun:
         self.threads = threads_for(system.net.bar_count)
         self.steps_per_call = int(np.clip(WORK_PER_CALL // max(system.net.bar_count, 1), *STEPS_PER_CALL))
         self._law = np.zeros((2, 1 if el.linear else system.net.bar_count + 1))
-        self._inverse = np.zeros((6, around.blocks * BLOCK))
-        self._states = np.zeros((2, 2, 3, around.width))
+        self._inverse = np.zeros(around.blocks * 6 * BLOCK)
+        self._fields = around.fields()
         self.step = self._bound(state)
 
     def _bound(self, state: State) -> float:
@@ -157,33 +168,24 @@ class SymplecticRun:
         wanted = int(np.ceil(left / self.step * (1.0 - 1e-12)))
         steps = min(wanted, self.steps_per_call)
         h = left / wanted
-        around = self.around
-        self._states[0, 0], self._states[0, 1] = around.columns(old.position), around.columns(old.velocity)
         flow = fluid_velocity(self.system, old)
-        u, uniform = around.columns(flow), bool(np.all(flow == flow[0]))
-        rates = np.zeros((2, self.threads * LINE))
-        el = self.system.elements
-        run_team(
-            self.threads,
-            leap,
-            self._states,
-            h,
-            steps,
-            u,
-            uniform,
-            el,
-            around,
-            self._law,
-            self._inverse,
-            rates,
-        )
+        for row, values in ((0, old.position), (3, old.velocity), (WATER, flow)):
+            self.around.write(self._fields, row, values)
+        self.leap(h, steps, bool(np.all(flow == flow[0])))
         self.count.evaluations += steps + 1
-        x, v = (around.rows(columns) for columns in self._states[(steps + 1) % 2])
+        last = HERE_ROWS * ((steps + 1) % 2)
+        x, v = self.around.read(self._fields, last), self.around.read(self._fields, last + 3)
         if not (np.all(np.isfinite(x)) and np.all(np.isfinite(v))):
             return "not_finite"
         self.count.steps += steps
         self.state = State(end if steps == wanted else old.time + steps * h, x, v)
         return "ok"
+
+    def leap(self, h: float, steps: int, uniform: bool) -> None:
+        """Take so many steps of h (s) from the fields as they stand; uniform: the same water velocity everywhere."""
+        rates = np.zeros((2, self.threads * LINE))
+        arrays = (self.system.elements, self.around, self._law, self._inverse, rates)
+        run_team(self.threads, leap, self._fields, h, steps, uniform, *arrays)
 
     def memory(self) -> Memory:
         """Return what the next steps depend on."""
