@@ -82,3 +82,10 @@ def test_number_of_threads(monkeypatch):
     monkeypatch.setenv("FYKE_THREADS", "3")
     assert threads_allowed() == 3
     assert (threads_for(100), threads_for(10**6)) == (1, 3)
+
+
+@pytest.mark.parametrize("wrong", ["two", "0", "-1", "1.5"])
+def test_number_of_threads_that_is_none(monkeypatch, framed, wrong):
+    monkeypatch.setenv("FYKE_THREADS", wrong)
+    with pytest.raises(ValueError, match=f"FYKE_THREADS is '{wrong}'; it must be a whole number above 0"):
+        fyke.Symplectic().start((system := framed()), system.at_rest())
