@@ -32,7 +32,7 @@ def period_at(name: str, frequency: float, step: float) -> float:
         return 2.0 / step * np.arcsin(phase / 2.0)
     if name == "newmark":
         return 2.0 / step * np.arctan(phase / 2.0)
-    # BDF2, (3 y'' - 4 y' + y) / 2 h = i w y'' for the three last values: the root of (3 - 2 i w h) z^2 - 4 z + 1 near 1.
+    # BDF2 of dy/dt = i w y: the root of (3 - 2 i w h) z^2 - 4 z + 1 near 1.
     roots = np.roots([3.0 - 2.0j * phase, -4.0, 1.0])
     return float(np.angle(roots[np.abs(roots).argmax()]) / step)
 
