@@ -14,6 +14,7 @@ from rich.text import Text
 from ..case import Case, CaseError, Problem, load_case
 from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
+from ..forces.team import threads_allowed
 from ..results import (
     Comparison,
     MeasurementError,
@@ -97,6 +98,7 @@ def run_case(file: Path, wishes: Wishes, began: float | None = None) -> int:
 def _prepare(file: Path, folder: Path, wishes: Wishes) -> tuple[Case, System, Stopped | None]:
     """Read and build a case and make its folder ready; CaseError and MeasurementError for a wrong input."""
     case = load_case(file)
+    _check_threads()
     if wishes.talk and needs_compiling(case):
         stderr().print("First run of this kind: compiling the kernels, some ten seconds, once.")
     system = build_system(build_net(case), case)
@@ -108,6 +110,16 @@ def _prepare(file: Path, folder: Path, wishes: Wishes) -> tuple[Case, System, St
         make_sure_of_room(folder, system.net, planned_frames(case))
         claim(folder, overwrite=wishes.overwrite)
     return case, system, resume
+
+
+def _check_threads() -> None:
+    try:
+        threads_allowed()
+    except ValueError:
+        found, cure = os.environ["FYKE_THREADS"], "set it to the number of threads wanted, or unset it"
+        raise CaseError(
+            [Problem("environment variable FYKE_THREADS", found, "a whole number above 0", cure)]
+        ) from None
 
 
 def _cannot_write(folder: Path, error: OSError) -> Problem:

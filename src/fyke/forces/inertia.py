@@ -172,36 +172,42 @@ def largest_frequency(x, k, inverse_mass, el):
             stiffness[i, 4] += c * dx * dz
             stiffness[i, 5] += c * dy * dz
     largest = 0.0
-    m, s = np.zeros((3, 3)), np.zeros((3, 3))
     for i in range(x.shape[0]):
         if el.free[i] > 0.0:
-            _unpack(inverse_mass[i], m)
-            _unpack(stiffness[i], s)
-            product = _times(m, s)
-            trace = product[0, 0] + product[1, 1] + product[2, 2]
-            if trace > 0.0:
-                square = _times(product / trace, product / trace)
-                fourth = _times(square, square)
-                eighth = 0.0
-                for p in range(3):
-                    for q in range(3):
-                        eighth += fourth[p, q] * fourth[q, p]
-                largest = max(largest, trace * eighth**0.125)
+            largest = max(largest, _largest_eigenvalue(inverse_mass, stiffness, i, largest))
     return np.sqrt(2.0 * largest)
 
 
 @njit(**OPTIONS)
-def _unpack(row, out):
-    out[0, 0], out[1, 1], out[2, 2] = row[0], row[1], row[2]
-    out[0, 1] = out[1, 0] = row[3]
-    out[0, 2] = out[2, 0] = row[4]
-    out[1, 2] = out[2, 1] = row[5]
+def _largest_eigenvalue(left, right, i, known):
+    """Bound trace(B^8)^(1/8) of the product B of symmetric matrices, rows i of left and right; 0 where below known."""
+    m0, m1, m2, m3, m4, m5 = left[i]
+    s0, s1, s2, s3, s4, s5 = right[i]
+    trace = m0 * s0 + m1 * s1 + m2 * s2 + 2.0 * (m3 * s3 + m4 * s4 + m5 * s5)
+    # No eigenvalue is negative: none is above the trace.
+    if trace <= known:
+        return 0.0
+    c = 1.0 / trace
+    m0, m1, m2, m3, m4, m5 = c * m0, c * m1, c * m2, c * m3, c * m4, c * m5
+    product = _times((m0, m3, m4, m3, m1, m5, m4, m5, m2), (s0, s3, s4, s3, s1, s5, s4, s5, s2))
+    square = _times(product, product)
+    f = _times(square, square)
+    eighth = f[0] * f[0] + f[4] * f[4] + f[8] * f[8]
+    eighth += 2.0 * (f[1] * f[3] + f[2] * f[6] + f[5] * f[7])
+    return trace * np.sqrt(np.sqrt(np.sqrt(eighth)))
 
 
 @njit(**OPTIONS)
 def _times(a, b):
-    out = np.zeros((3, 3))
-    for p in range(3):
-        for q in range(3):
-            out[p, q] = a[p, 0] * b[0, q] + a[p, 1] * b[1, q] + a[p, 2] * b[2, q]
-    return out
+    """Product of two 3 x 3 matrices, each nine numbers by rows."""
+    return (
+        a[0] * b[0] + a[1] * b[3] + a[2] * b[6],
+        a[0] * b[1] + a[1] * b[4] + a[2] * b[7],
+        a[0] * b[2] + a[1] * b[5] + a[2] * b[8],
+        a[3] * b[0] + a[4] * b[3] + a[5] * b[6],
+        a[3] * b[1] + a[4] * b[4] + a[5] * b[7],
+        a[3] * b[2] + a[4] * b[5] + a[5] * b[8],
+        a[6] * b[0] + a[7] * b[3] + a[8] * b[6],
+        a[6] * b[1] + a[7] * b[4] + a[8] * b[7],
+        a[6] * b[2] + a[7] * b[5] + a[8] * b[8],
+    )

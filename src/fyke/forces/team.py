@@ -43,11 +43,18 @@ def threads_for(bars: int) -> int:
 
 
 def threads_allowed() -> int:
-    """Return FYKE_THREADS or NUMBA_NUM_THREADS from the environment, else the cores that the system lets us use."""
+    """Return FYKE_THREADS or NUMBA_NUM_THREADS from the environment, else the cores that the system lets us use.
+
+    ValueError where FYKE_THREADS is set to anything but a whole number above 0.
+    """
     for name in ("FYKE_THREADS", "NUMBA_NUM_THREADS"):
         text = os.environ.get(name, "").strip()
         if text.isdecimal() and int(text) > 0:
             return int(text)
+        if text and name == "FYKE_THREADS":
+            raise ValueError(
+                f"FYKE_THREADS is {text!r}; it must be a whole number above 0, such as 2, or not set at all"
+            )
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return max(1, min(cores, _quota()))
 

@@ -79,13 +79,16 @@ def highest_frequency(system: System, state: State) -> float:
     """Upper bound (rad/s) of the frequencies of the net with all its bars taut, see forces.inertia."""
     el = system.elements
     m = system.net.bar_count
-    t, length, f, k = np.empty((m, 3)), np.empty(m), np.empty(m), np.empty(m)
-    bar_geometry(state.position, el, t, length)
-    elastic(length - el.rest_length, el, f, k)
+    k = el.stiffness
+    if not el.linear:
+        t, length, f, slope = np.empty((m, 3)), np.empty(m), np.empty(m), np.empty(m)
+        bar_geometry(state.position, el, t, length)
+        elastic(length - el.rest_length, el, f, slope)
+        k = np.maximum(slope, el.stiffness)
     inverse = np.empty((system.net.knot_count, 6))
     mass_matrices(state.position, el, inverse)
     invert_masses(inverse, el.free)
-    return float(largest_frequency(state.position, np.maximum(k, el.stiffness), inverse, el))
+    return float(largest_frequency(state.position, k, inverse, el))
 
 
 def fluid_velocity(system: System, state: State) -> Array:
