@@ -85,6 +85,7 @@ def test_the_shape_stays_within_its_axes_with_one_scale(result, size):
 def test_without_axes_a_plot_makes_a_figure_of_its_own(result, run):
     from matplotlib import pyplot
 
+    pyplot.close("all")
     try:
         made = [result.plot.shape(), result.plot.tension(), run.plot.history(of="largest tension")]
         assert len(pyplot.get_fignums()) == 3

@@ -146,11 +146,7 @@ def simulate(
     try:
         verdict = _loop(system, run, times[len(frames) :], settle, keep, on_progress)
     except KeyboardInterrupt:
-        verdict = (
-            "interrupted",
-            f"stopped by hand at {run.state.time:.4g} s",
-            "the frames so far are saved; fyke run --resume goes on from there",
-        )
+        verdict = _by_hand(run)
     except MemoryError as error:
         verdict = out_of_memory(error)
     if not frames or run.state.time > frames[-1].time:
@@ -158,11 +154,17 @@ def simulate(
         frames.append(evaluate(system, run.state))
         if on_frame is not None:
             on_frame(frames[-1])
-    seconds = time.perf_counter() - began
-    outcome = _outcome(
-        run, method, verdict, seconds, frames[-1], warnings + strain_warnings(system.net, frames)
-    )
+    warnings += strain_warnings(system.net, frames)
+    outcome = _outcome(run, method, verdict, time.perf_counter() - began, frames[-1], warnings)
     return Result.from_frames(system.net, outcome, system.weight_in_water, frames, system.case_text)
+
+
+def _by_hand(run: Run) -> Verdict:
+    return (
+        "interrupted",
+        f"stopped by hand at {run.state.time:.4g} s",
+        "the frames so far are saved; fyke run --resume goes on from there",
+    )
 
 
 def _outcome(
