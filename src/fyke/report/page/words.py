@@ -93,7 +93,8 @@ def account_words(figures: dict[str, Any]) -> list[str]:
     steps = f"{figures['iterations']} {'time steps' if accounts['energy'] else 'iterations'}"
     extra = [f"{figures['factorizations']} factorizations"] if figures["factorizations"] else []
     extra += [f"{figures['rejected']} steps taken again"] if figures["rejected"] else []
-    words.append(f"It took {', '.join([steps, *extra])} and {number(figures['wall_time'], 's', 3)}.")
+    if figures["iterations"]:
+        words.append(f"It took {', '.join([steps, *extra])} and {number(figures['wall_time'], 's', 3)}.")
     return words
 
 
