@@ -44,13 +44,9 @@ def crossings(time, swing):
 
 
 def balls(net, mass=MASS, diameter=0.01):
-    """Balls on the knots, and on held ones a load, which moves nothing: the implicit methods take the size of the
-    tensions from the loads."""
+    """Balls on the knots."""
     ones = np.ones(net.knot_count)
-    load = np.outer(net.fixed, [TENSION, 0.0, 0.0])
-    return replace(
-        net, load=load, knot_diameter=diameter * ones, knot_density=mass / (np.pi / 6 * diameter**3) * ones
-    )
+    return replace(net, knot_diameter=diameter * ones, knot_density=mass / (np.pi / 6 * diameter**3) * ones)
 
 
 def chain(damping_time=0.0):

@@ -19,10 +19,9 @@ from ..forces.bars import bar_geometry, elastic, water_load
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.total import total_force, work_arrays
 from ..system.system import State, System
-from .central_path import bar_changes, second_order
 from .equilibrium import typical_tension
-from .linear import Pattern, SingularMatrixError, Solve, factorizer
-from .smooth import assemble_step, smooth_bars, step_right_side
+from .linear import SingularMatrixError
+from .step_newton import Ahead, StepNewton
 from .stepper import Count, Memory, Status, fluid_velocity
 
 Array = NDArray[np.float64]
@@ -37,27 +36,14 @@ class Past(NamedTuple):
     a: Array
 
 
-class Ahead(NamedTuple):
-    """What a step makes of the acceleration to be found: x = x0 + c0 a, v = v0 + c1 a; its local error constant."""
-
-    c0: float
-    c1: float
-    x0: Array
-    v0: Array
-    error: float
-
-
 # Size (N) of the smoothing, over the typical tension: T w = (SMOOTHING x tension)^2.
 SMOOTHING = 1e-5
 # Newton ends when the motion it still makes is below so much of the error tolerance, and r below so much of the
 # typical tension, both root mean squares: a few bars of a large net may still be found in the next step.
 MOTION_LEFT, FORCE_LEFT = 0.1, 0.3
-MOST_NEWTON = 25
-# Rotation of a bar in one Newton step (rad).
-LARGEST_ROTATION = 0.5
-# The elongation of second order is put in while it makes more than this part of the typical tension, in so many of the
-# first Newton steps.
-SECOND_ORDER, SECOND_ORDER_STEPS = 0.02, 6
+# Typical tension, over the mean tension at the beginning, of a net that is stretched and bears no loads: small, because
+# the stretch of other beginnings is gone after a moment.
+PRESTRESS = 1e-4
 GROWTH, SHRINK, SAFETY = 2.0, 0.3, 0.9
 # Allowed error, over the tolerance, of knots that drift with slack twine, where errors add up. Elsewhere taut bars
 # take errors back.
@@ -140,27 +126,16 @@ class ImplicitRun:
         self.method, self.system, self.state = method, system, state
         self.count = Count()
         el = self.el = system.elements
-        n, m = system.net.knot_count, system.net.bar_count
-        self.pattern = Pattern.of(el)
-        self.linear = factorizer(self.pattern)
-        self.linear_solver = self.linear.name
         self.x, self.v, self.time = state.position.copy(), state.velocity.copy(), state.time
         self.u = fluid_velocity(system, state)
-        self.rel = self.u - self.v
-        z = np.zeros
-        self.t, self.load, self.total, self.mass = z((m, 3)), z((n, 3)), z((n, 3)), z((n, 6))
-        self.length, self.f, self.k, self.damp = z(m), z(m), z(m), z(m)
-        self.p, self.r, self.c, self.bent, self.along = z(m), z(m), z(m), z(m), z(m)
-        self.de, self.dT, self.dw, self.dx = z(m), z(m), z(m), z((n, 3))
-        self.right, self.data = z(3 * len(self.pattern.free)), z(len(self.pattern.indices))
-        self.xn, self.vn, self.an, self.Tn, self.wn = self.x, self.v, z((n, 3)), z(m), z(m)
-        self.a = self._acceleration()
-        water_load(self.u - self.v, el, self.t, self.length, self.load)
-        self.tension_scale = max(typical_tension(el, self.load), TINY)
-        self.error = 0.0
-        self.mu = (SMOOTHING * self.tension_scale) ** 2
-        self.T = 0.5 * (self.f + np.sqrt(self.f * self.f + 4.0 * self.mu))
-        self.w = self.T - self.f
+        self.a, f, load = self._beginning()
+        prestress = float(np.maximum(f, 0.0).sum()) / max(len(f), 1)
+        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, TINY)
+        mu = (SMOOTHING * self.tension_scale) ** 2
+        self.newton = StepNewton(el, self.u, mu, self.tension_scale)
+        self.linear_solver = self.newton.linear.name
+        self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * mu))
+        self.w = self.T - f
         self.before = (self.time, self.x, self.v, self._tension())
         self.tolerance = method.atol + method.rtol * float(el.rest_length.min(initial=1.0))
         self.step = self._first_step()
@@ -173,20 +148,23 @@ class ImplicitRun:
             return step
         return method.max_step if method.fixed else min(step, method.max_step)
 
-    def _acceleration(self) -> Array:
+    def _beginning(self) -> tuple[Array, Array, Array]:
+        """Acceleration (n, 3), law (m,) and load (n, 3) of the state at the beginning."""
+        el, bars = self.el, self.system.net.bar_count
         rel, g = work_arrays(len(self.x))
-        force, a = np.zeros_like(self.x), np.zeros_like(self.x)
-        total_force(self.x, self.v, self.u, self.el, rel, g, force)
-        mass_matrices(self.x, self.el, self.mass)
-        inverse = self.mass.copy()
-        invert_masses(inverse, self.el.free)
+        force, a, load, inverse = (np.zeros((len(self.x), width)) for width in (3, 3, 3, 6))
+        total_force(self.x, self.v, self.u, el, rel, g, force)
+        mass_matrices(self.x, el, inverse)
+        invert_masses(inverse, el.free)
         i = inverse
         a[:, 0] = i[:, 0] * force[:, 0] + i[:, 3] * force[:, 1] + i[:, 4] * force[:, 2]
         a[:, 1] = i[:, 3] * force[:, 0] + i[:, 1] * force[:, 1] + i[:, 5] * force[:, 2]
         a[:, 2] = i[:, 4] * force[:, 0] + i[:, 5] * force[:, 1] + i[:, 2] * force[:, 2]
-        bar_geometry(self.x, self.el, self.t, self.length)
-        elastic(self.length - self.el.rest_length, self.el, self.f, self.k)
-        return a
+        t, length, f, k = np.zeros((bars, 3)), np.zeros(bars), np.zeros(bars), np.zeros(bars)
+        bar_geometry(self.x, el, t, length)
+        elastic(length - el.rest_length, el, f, k)
+        water_load(self.u - self.v, el, t, length, load)
+        return a, f, load
 
     def advance(self, end: float) -> Status:
         """Go on towards the time end (s), by one step at most; the state is interpolated when the step passes it."""
@@ -227,17 +205,16 @@ class ImplicitRun:
                 self.count.rejected += 1
                 self.step = SHRINK * h
                 continue
-            err = self.error * h * h * self._jump() / self.tolerance
+            err = self.newton.ahead.error * h * h * self._jump() / self.tolerance
             factor = SAFETY * max(err, TINY) ** (-1.0 / 3.0)
             if err > WORST_ERROR and not method.fixed:
                 self.count.rejected += 1
                 self.step = h * max(SHRINK, factor)
                 continue
             self.before = (self.time, self.x, self.v, self._tension())
-            self.x, self.v, self.time = self.xn, self.vn, self.time + h
-            self.a, self.an = self.an, self.a
-            self.T, self.Tn = self.Tn, self.T
-            self.w, self.wn = self.wn, self.w
+            found = self.newton
+            self.x, self.v, self.time = found.x, found.v, self.time + h
+            self.a, self.T, self.w = found.a.copy(), found.T.copy(), found.w.copy()
             self.count.steps += 1
             self.step = h * (GROWTH if method.fixed else min(GROWTH, max(SHRINK, factor)))
             return "ok"
@@ -251,11 +228,12 @@ class ImplicitRun:
 
     def _jump(self) -> float:
         """Change of the accelerations, root mean square (m/s2): of all knots, or of drifting ones over DRIFT."""
-        free, el = self.pattern.free, self.el
+        found, el = self.newton, self.el
+        free = found.pattern.free
         drifting = np.ones(len(self.x), dtype=bool)
-        taut = (self.T > self.w) | (self.Tn > self.wn)
+        taut = (self.T > self.w) | (found.T > found.w)
         drifting[el.knot_a[taut]] = drifting[el.knot_b[taut]] = False
-        square = ((self.an - self.a)[free] ** 2).sum(axis=1)
+        square = ((found.a - self.a)[free] ** 2).sum(axis=1)
         alone = square[drifting[free]]
         everywhere = square.sum() / max(len(square), 1)
         return float(np.sqrt(max(everywhere, alone.sum() / max(len(alone), 1) / DRIFT**2)))
@@ -270,74 +248,17 @@ class ImplicitRun:
 
     def _newton(self, h: float) -> bool:
         """Find a, T, w of a step h from the last ones; False when Newton does not get there."""
-        # A step depends on the state alone, so that a run may be taken up again at any.
-        self.linear.renew()
-        el = self.el
-        c0, c1, x0, v0, self.error = self.method.ahead(h, self._past(h))
+        newton = self.newton
         # The last accelerations are no guess: where bars have just snapped they are large and gone.
-        self.an[:], self.Tn[:], self.wn[:] = 0.0, self.T, self.w
-        for iteration in range(MOST_NEWTON):
-            self.xn, self.vn = x0 + c0 * self.an, v0 + c1 * self.an
-            self._residual()
-            solve = self._factor(c0, c1)
-            turn = self._direction(solve, self.r)
-            if iteration < SECOND_ORDER_STEPS:
-                second_order(self.xn, self.dx, self.de, 1.0, el, self.length, self.k, self.r, self.bent)
-                if np.abs(self.bent - self.r).max(initial=0.0) > SECOND_ORDER * self.tension_scale:
-                    self.c += self.p * (self.bent - self.r)
-                    turn = self._direction(solve, self.bent)
-            moved, r = _rms(self.dx, len(self.pattern.free)), _rms(self.r, len(self.r))
-            if not np.isfinite(moved):
-                return False
-            part = LARGEST_ROTATION / max(turn, LARGEST_ROTATION)
-            self.an += (part / c0) * self.dx
-            self.Tn += part * self.dT
-            self.wn += part * self.dw
-            if part == 1.0 and moved < MOTION_LEFT * self.tolerance and r < FORCE_LEFT * self.tension_scale:
-                self.xn, self.vn = x0 + c0 * self.an, v0 + c1 * self.an
-                return True
-        return False
-
-    def _residual(self) -> None:
-        """Geometry, law, loads and masses of the present guess; residuals of the bars' equations (N)."""
-        el = self.el
-        bar_geometry(self.xn, el, self.t, self.length)
-        np.subtract(self.length, el.rest_length, out=self.de)
-        elastic(self.de, el, self.f, self.k)
-        if el.damped:
-            rate = np.einsum("eq,eq->e", self.vn[el.knot_b] - self.vn[el.knot_a], self.t)
-            self.damp = np.where(self.T > self.w, el.damping_time * self.k, 0.0)
-            self.f += self.damp * rate
-        mass_matrices(self.xn, el, self.mass)
-        self.count.evaluations += 1
-        self.rel = self.u - self.vn
-        water_load(self.rel, el, self.t, self.length, self.load)
-        smooth_bars(self.Tn, self.wn, self.f, self.mu, self.p, self.r, self.c)
-
-    def _factor(self, c0: float, c1: float) -> Solve:
-        """Factorize the matrix of the step for accelerations over c0, so that it solves for motions."""
-        p = self.pattern
-        if self.el.damped:
-            # The slope of the law, what the rate of elongation adds included.
-            self.k += self.damp * (c1 / c0)
-        np.multiply(self.p, self.k, out=self.along)
-        assemble_step(
-            self.rel, self.el, self.t, self.length, self.Tn, self.along, 1.0, c1 / c0, 1.0 / c0, self.mass,
-            p.start, p.stride, p.diagonal, self.data,
-        )  # fmt: skip
-        self.count.factorizations += 1
-        return self.linear.factor(self.data)
-
-    def _direction(self, solve: Solve, r: Array) -> float:
-        """Motion dx and the changes of the bars for the residual r; returns the largest rotation."""
-        p, el = self.pattern, self.el
-        step_right_side(
-            self.load, self.Tn, self.c, self.an, self.mass, el, self.t, p.free, self.total, self.right
+        newton.begin(
+            self.method.ahead(h, self._past(h)), self.T > self.w, np.zeros_like(self.x), self.T, self.w
         )
-        self.dx[p.free] = solve(self.right).reshape(-1, 3)
-        return float(
-            bar_changes(self.dx, self.along, self.k, r, self.c, el, self.t, self.de, self.dT, self.dw)
-        )
+        begun = newton.evaluations, newton.factorizations
+        try:
+            return newton.solve(MOTION_LEFT * self.tolerance, FORCE_LEFT * self.tension_scale)
+        finally:
+            self.count.evaluations += newton.evaluations - begun[0]
+            self.count.factorizations += newton.factorizations - begun[1]
 
     def memory(self) -> Memory:
         """Return what the next steps depend on, and the last step, in which outputs may still lie."""
@@ -359,8 +280,3 @@ class ImplicitRun:
         self.x, self.v = memory["position"][1], memory["velocity"][1]
         self.a, self.T, self.w = (memory[name].copy() for name in ("acceleration", "tension", "slack"))
         self.state = self._between(float(memory["output"]))
-
-
-def _rms(values: Array, count: int) -> float:
-    """Root of the sum of squares over a count."""
-    return float(np.sqrt(np.vdot(values, values) / max(count, 1)))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from .cholesky import Cholmod
 from .clock import charged
-from .engines import BreakdownError, Engine, Factored, Rslab, RslabSmall, SuperLU
+from .engines import BreakdownError, Engine, Factored, Rslab, RslabSmall, RslabSymmetric, SuperLU
 from .memory import NotEnoughMemoryError
 from .pattern import Pattern
 from .residual import residual
@@ -159,10 +159,13 @@ class CheckedSolve:
         return int(np.argmax(np.abs(x))) if np.all(np.isfinite(x)) else None
 
 
-def factorizer(pattern: Pattern, name: LinearName | None = None, useless: float = USELESS) -> Factorizer:
+def factorizer(
+    pattern: Pattern, name: LinearName | None = None, useless: float = USELESS, symmetric: bool = False
+) -> Factorizer:
     """Return a solver: rslab (LU), cholmod (Cholesky and GMRES), superlu (LU); the first that is installed by default.
 
     useless: residual, over the right side, from which a solution counts as none and the matrix as without inverse.
+    symmetric: all matrices will be, which rslab makes use of on large nets.
     Raises ValueError for another name, ModuleNotFoundError when the package of a chosen one is missing.
     """
     if name is None:
@@ -176,6 +179,8 @@ def factorizer(pattern: Pattern, name: LinearName | None = None, useless: float 
         return Checked(pattern, SuperLU, "SuperLU", useless)
     if len(pattern.indptr) <= SMALL:
         return Checked(pattern, RslabSmall, "rslab KLU", useless)
+    if symmetric:
+        return Checked(pattern, RslabSymmetric, "rslab LDLT", useless)
     return Checked(pattern, Rslab, "rslab LU", useless)
 
 

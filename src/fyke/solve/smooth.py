@@ -33,14 +33,14 @@ def smooth_bars(T, w, g, mu, p, r, c):
 
 
 @njit(**OPTIONS)
-def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride, diagonal, data):
+def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, symmetric, start, stride, diagonal, data):
     """Matrix cm M + c1 C + c0 K of one step on the pattern's data; K = -dF/dx, C = -dF/dv.
 
     rel: (n, 3) m/s, the water against the knots; along: (m,) N/m, stiffness of a bar along itself, damping included;
-    T: (m,) N; mass: (n, 6) kg.
+    T: (m,) N; mass: (n, 6) kg; symmetric: its symmetric part alone.
     """
     data[:] = 0.0
-    turn = np.zeros((3, 3))
+    turn, own, other = np.zeros((3, 3)), np.zeros((3, 3)), np.zeros((3, 3))
     w = np.zeros(3)
     for e in range(along.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
@@ -48,6 +48,11 @@ def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride,
             w[q] = 0.5 * (rel[a, q] + rel[b, q])
         t0 = t[e]
         bar_water_tangent(w, t0, el.normal_drag[e], el.tangential_drag[e], turn)
+        for q in range(3):
+            for p in range(3):
+                # Blocks (a, a) and (b, b) are symmetric by themselves, (b, a) and (a, b) mirror each other.
+                own[p, q] = 0.5 * (turn[p, q] + turn[q, p]) if symmetric else turn[p, q]
+                other[p, q] = 0.5 * (turn[p, q] - turn[q, p]) if symmetric else turn[p, q]
         s = w[0] * t0[0] + w[1] * t0[1] + w[2] * t0[2]
         n0, n1, n2 = w[0] - s * t0[0], w[1] - s * t0[1], w[2] - s * t0[2]
         size = np.sqrt(n0 * n0 + n1 * n1 + n2 * n2)
@@ -63,14 +68,14 @@ def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, start, stride,
                 identity = 1.0 if p == q else 0.0
                 tt = t0[p] * t0[q]
                 k = c0 * ((along[e] - across) * tt + across * identity)
-                d = c0 * turn[p, q]
+                d, g = c0 * own[p, q], c0 * other[p, q]
                 c = cn * (size * (identity - tt) + n[p] * n[q] * inverse) + ct * tt
                 if aa >= 0:
                     data[aa + q * sa + p] += c + k + d
                 if ba >= 0:
-                    data[ba + q * sa + p] += c + d - k
+                    data[ba + q * sa + p] += c + g - k
                 if ab >= 0:
-                    data[ab + q * sb + p] += c - k - d
+                    data[ab + q * sb + p] += c - k - g
                 if bb >= 0:
                     data[bb + q * sb + p] += c + k - d
     _add_knots(rel, el, c1, cm, mass, diagonal, data)
