@@ -50,7 +50,7 @@ def test_follows_verner_across_the_change(framed):
 
 def test_same_bits_from_every_checkpoint(framed):
     """Before the change, at it, and after it, where outputs lie within steps."""
-    options = {"duration": 0.16, "every": 0.008, "stepper": fyke.Auto()}
+    options = {"duration": 0.24, "every": 0.012, "stepper": fyke.Auto()}
     checkpoints = []
     whole = fyke.simulate(framed(current=FAST), on_checkpoint=checkpoints.append, **options)
     assert "implicit from" in whole.outcome.solver

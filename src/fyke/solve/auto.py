@@ -28,12 +28,12 @@ Name = Literal["implicit", "symplectic"]
 
 # Work in ns of one core: of a leapfrog step and each of its bars, of a Newton iteration and each of its bars, and of
 # a factorization over n^FACTOR_POWER.
-LEAP_STEP, LEAP_BAR = 300.0, 18.0
+LEAP_STEP, LEAP_BAR = 600.0, 9.0
 NEWTON, NEWTON_BAR = 75_000.0, 700.0
-FACTOR, FACTOR_POWER = 310.0, 1.2
+FACTOR, FACTOR_POWER = 200.0, 1.2
 # What the plan expects, as seen on panels of 3 to 32 meshes: Newton iterations of the first steps; REST m^REST_POWER
 # more until a net is at rest; the time that takes over the time in which the water crosses the net.
-FIRST, REST, REST_POWER, REST_TIME = 16, 70.0, 0.2, 0.5
+FIRST, REST, REST_POWER, REST_TIME = 16, 60.0, 0.2, 0.5
 # The implicit method may need so many times more than planned. After that leapfrog goes on for RETURN times the work
 # lost before it is tried again: what is lost on trials in vain is at most 1 / RETURN.
 PATIENCE, RETURN = 1.5, 2.0
