@@ -78,7 +78,7 @@ class Rslab:
 
 
 class RslabSymmetric:
-    """RSLAB's supernodal LDL^T of symmetric matrices, at half the work of the LU."""
+    """RSLAB's supernodal LDL^T of symmetric matrices, half the work of the LU. Same bits for any number of threads."""
 
     kept = False
 
