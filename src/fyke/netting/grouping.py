@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import make_interp_spline
 
 from .lattice import INTERVALS, Lattice, MeshKind, lattice
 from .net import Net
@@ -145,4 +144,7 @@ def _spline(at: Indices, values: Array, wanted: Array, degree: int) -> Array:
     degree = min(degree, len(at) - 1)
     if degree == 0:
         return np.repeat(values, len(wanted), axis=0)
+    # A sixth of a second to import, which only large nets need.
+    from scipy.interpolate import make_interp_spline
+
     return np.asarray(make_interp_spline(at.astype(float), values, k=degree)(wanted, extrapolate=True))
