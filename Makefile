@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test bench-million test-peers bench bench-peers format clean
+.PHONY: demo test test-peers bench bench-million bench-peers bench-see gallery format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
