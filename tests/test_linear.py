@@ -181,7 +181,7 @@ class Sloppy:
     def __init__(self, pattern, part, kept=False):
         self.inner, self.part, self.kept = SuperLU(pattern), part, kept
 
-    def renew(self):
+    def forget(self):
         if self.kept:
             self.kept, self.part = False, 0.0
 

@@ -48,6 +48,8 @@ class Cholmod:
     def renew(self) -> None:
         """Nothing is kept but the symbolic analysis."""
 
+    forget = renew
+
     def factor(self, data: Array) -> Factored:
         """Factorize the symmetric part; raises BreakdownError when it is not positive definite."""
         from cvxopt import matrix

@@ -34,6 +34,9 @@ class Engine(Protocol):
     kept: bool
 
     def renew(self) -> None:
+        """Go on with pivots that do not depend on the matrices so far."""
+
+    def forget(self) -> None:
         """Keep no pivots."""
 
     def factor(self, data: Array) -> Factored:
@@ -67,6 +70,8 @@ class Rslab:
     def renew(self) -> None:
         """Nothing is kept but the symbolic analysis."""
 
+    forget = renew
+
     def factor(self, data: Array) -> Factored:
         """Factorize; raises BreakdownError."""
         try:
@@ -94,6 +99,8 @@ class RslabSymmetric:
     def renew(self) -> None:
         """Nothing is kept but the symbolic analysis."""
 
+    forget = renew
+
     def factor(self, data: Array) -> Factored:
         """Factorize; raises BreakdownError."""
         self._matrix.data = data
@@ -117,9 +124,17 @@ class RslabSmall:
         model.setdiag(float(len(pattern.indptr)))
         self._symbolic = rslab.analyze(model, path="klu")
         check_memory(self._symbolic.memory_plan()["peak_bytes"])
+        self._model = model.data
+        self._of_model: Any = None
         self._handle: Any = None
 
     def renew(self) -> None:
+        """Take the pivots of the model, which are those of most matrices of a net."""
+        if self._of_model is None:
+            self._of_model = self._symbolic.factor(self._model)
+        self._handle = self._of_model
+
+    def forget(self) -> None:
         """Choose new pivots at the next matrix."""
         self._handle = None
 
@@ -160,6 +175,8 @@ class SuperLU:
 
     def renew(self) -> None:
         """Nothing is kept."""
+
+    forget = renew
 
     def factor(self, data: Array) -> Factored:
         """Factorize; raises BreakdownError."""

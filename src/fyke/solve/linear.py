@@ -117,7 +117,7 @@ class CheckedSolve:
             return x
         x, left = self._refined(x, left, right)
         if not left <= REFINE and self._engine.kept:
-            self._engine.renew()
+            self._engine.forget()
             self._solve = self._factor()
             x = self._solve(right)
             x, left = self._refined(x, self._check(x, right), right)
@@ -145,7 +145,7 @@ class CheckedSolve:
         shifted = self._data.copy()
         for q in range(3):
             shifted[begin + q * (stride + 1)] += SHIFT * size if size > 0.0 else 1.0
-        self._engine.renew()
+        self._engine.forget()
         # A vector at random, because one of ones is blind to what is odd about a symmetric net's middle.
         x = np.random.default_rng(0).standard_normal(p.size)
         try:
@@ -155,7 +155,7 @@ class CheckedSolve:
         for _ in range(NULL_ITERATIONS):
             x = solve(x)
             x /= np.abs(x).max()
-        self._engine.renew()
+        self._engine.forget()
         return int(np.argmax(np.abs(x))) if np.all(np.isfinite(x)) else None
 
 
