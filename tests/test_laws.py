@@ -21,7 +21,7 @@ BARS, KNOTS, PANELS = LAWS["bars"], LAWS["knots"], LAWS["panels"]
 MADE = {name: law() for name, law in BARS.items() if not name.endswith("table")}
 SPLIT = {name: law for name, law in MADE.items() if name != "hoerner"}
 SPHERES = {name: law() for name, law in KNOTS.items()}
-TABLE = BarTable((10.0, 100.0, 1000.0), (2.0, 1.5, 1.1), (0.3, 0.1, 0.0))
+TABLE = BarTable((9.0, 90.0, 900.0), (2.0, 1.5, 1.1), (0.3, 0.1, 0.0))
 
 
 def columns(name: str) -> dict[str, np.ndarray]:
