@@ -87,15 +87,15 @@ def test_fridman_is_the_table_but_for_the_sign_that_geometry_asks_for():
 
 
 def test_quasi_static_series_by_hand():
-    """At 45 deg cos q = -cos 3q = -cos 5q = r/2 and sin 2q = -sin 6q = 1, sin 4q = 0."""
-    law, simple = KristiansenFaltinsen("quasi-static"), KristiansenFaltinsen()
-    face_on = simple.coefficients(0.0, 0.2, 800.0)[0]
-    drag, lift = law.coefficients(np.pi / 4.0, 0.2, 800.0)
-    assert drag == pytest.approx(face_on * np.sqrt(0.5) * (0.972 - 0.0129 - 0.0151), rel=1e-12)
-    half = face_on / 2.0
-    assert lift == pytest.approx(
-        (half - np.pi * half / (8.0 + half)) / np.sqrt(2.0) * (1.2044 - 0.135), rel=1e-12
-    )
+    """cos q = -cos 3q = -cos 5q, sin 2q = -sin 6q = 1, sin 4q = 0 at 45 deg; sin 2q = sin 6q, sin 4q = 1 at 22.5."""
+    law = KristiansenFaltinsen("quasi-static")
+    face_on = KristiansenFaltinsen().coefficients(0.0, 0.2, 800.0)[0]
+    drag, lift = law.coefficients(np.array([np.pi / 4.0, np.pi / 8.0]), 0.2, 800.0)
+    assert drag[0] == pytest.approx(face_on * np.sqrt(0.5) * (0.972 - 0.0129 - 0.0151), rel=1e-12)
+    normal = face_on / 2.0
+    scale = (normal - np.pi * normal / (8.0 + normal)) / np.sqrt(2.0)
+    assert lift[0] == pytest.approx(scale * (1.2044 - 0.135), rel=1e-12)
+    assert lift[1] == pytest.approx(scale * (np.sqrt(0.5) * (1.2044 + 0.135) + 0.1466), rel=1e-12)
 
 
 def test_choo_and_casarellas_tangential_force_is_linear_in_the_speed_along():

@@ -110,7 +110,7 @@ def _unsorted(rows: list[_Row], keys: int) -> Iterator[Problem]:
     last: tuple[float, ...] = ()
     for row in rows:
         place = row.numbers[:keys]
-        if place <= last:
+        if place <= last or place in seen:
             cure = "keep one row for each" if place in seen else "sort the rows"
             yield Problem(row.where, f"{_written(place)} after {_written(last)}", allowed, cure)
         seen.add(place)
