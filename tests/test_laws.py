@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -274,14 +275,15 @@ def test_still_and_very_fast_water_have_finite_coefficients():
     ],
 )
 def test_cylinders_are_as_near_the_measured_points_as_docs_say(name, limit):
-    """Root of the mean square of ln C_D within each law's range; the points scatter by 0.05 to 0.1 themselves."""
+    """RMS of ln C_D within each law's range; the points scatter by 0.04 (Re of netting) to 0.08 themselves."""
     law, points = MADE[name], measured.cylinder()
     re, drag = points[(points[:, 0] >= law.ranges[0].low) & (points[:, 0] <= law.ranges[0].high)].T
     assert np.sqrt(np.mean(np.log(law.coefficients(re)[0] / drag) ** 2)) < limit
 
 
 @pytest.mark.parametrize("name", ["schiller-naumann", "clift-gauvin", "clift-grace-weber"])
-def test_spheres_are_within_the_scatter_of_the_measured_points(name):
+def test_spheres_are_as_near_the_measured_points_as_docs_say(name):
+    """The points scatter by 0.04 about a polynomial of the eighth power, and lie 3 % above all three laws."""
     re, drag = measured.sphere().T
     assert len(re) == 122
     assert np.sqrt(np.mean(np.log(SPHERES[name].coefficients(re) / drag) ** 2)) < 0.08
@@ -308,6 +310,23 @@ def test_panel_laws_miss_the_measured_panel_by_what_others_found(name, errors):
     angle, drag, _ = measured.panel().T
     found = PANELS[name]().coefficients(angle, measured.PANEL_SOLIDITY, measured.PANEL_REYNOLDS)[0]
     assert 100.0 * (found / drag - 1.0) == pytest.approx(errors, abs=6e-3)
+
+
+def test_bars_summed_over_the_measured_panel_miss_it_by_what_others_found():
+    """Square mesh, d / l = 2.8 / 29: twines upright are across the flow at any angle, the others at 90 deg less it.
+
+    Neither shelter nor the water's way between the twines is in such a sum, whose error grows towards the flow.
+    """
+    angle, drag, _ = measured.panel().T
+    across, slanting = (
+        MADE["bessonneau-marichal"].drag_lift(1397.0, a) for a in (np.pi / 2.0, np.pi / 2.0 - angle)
+    )
+    found = 2.8 / 29.0 * (across[0] + slanting[0])
+    assert 100.0 * (found / drag - 1.0) == pytest.approx(
+        [-10.18, -9.281, -8.417, 2.063, 28.88, 64.38], abs=6e-3
+    )
+    by_others = [0.0, 0.02735, 0.04136, 0.03755, 0.02146, 0.005165]
+    assert 2.8 / 29.0 * slanting[1] == pytest.approx(by_others, abs=6e-6)
 
 
 # Ranges and tables
@@ -386,3 +405,9 @@ def test_every_law_states_what_a_reader_needs():
             )
     for laws in LAWS.values():
         assert all(a.name != b.name for a, b in pairwise(sorted(laws.values(), key=lambda one: one.name)))
+
+
+def test_the_page_lists_every_law():
+    page = (Path(__file__).parents[1] / "docs" / "laws.md").read_text(encoding="utf-8")
+    told = re.findall(r"^\| `([\w-]+)` \|", page, re.MULTILINE)
+    assert told == [name for laws in LAWS.values() for name in laws]
