@@ -233,6 +233,19 @@ def test_no_coefficient_jumps(coefficients, derivative):
     assert np.all(np.abs(there - here) <= 1e-6 * steepest * np.maximum(np.abs(here), 1.0))
 
 
+def test_force_grows_with_speed_but_where_the_page_says():
+    """C Re^2 goes with the force; it falls in the drag crisis, and where a parabola of solidity nears its zero."""
+    re = np.geomspace(1e-5, 1e8, 200001)
+    falls = {"choo-casarella": (3.8e5, 5.1e5), "cifuentes-kim": (155.0 / 0.04, 211.0 / 0.04)}
+    for law in [*SPLIT.values(), *SPHERES.values()]:
+        found = law.coefficients(re)
+        force = (found[0] if isinstance(found, tuple) else found) * re**2
+        low, high = {**falls, "clift-grace-weber": (3.37e5, 4.1e5)}.get(law.name, (np.inf, np.inf))
+        falling = re[1:][np.diff(force) <= 0.0]
+        assert np.all((falling >= low) & (falling <= high)), law.name
+        assert (falling.size > 0) == np.isfinite(low), law.name
+
+
 @given(st.floats(0.1, 10.0), st.floats(0.1, 10.0), st.floats(1.0, 1e5))
 def test_between_two_pieces_the_curve_stays_between_them(low, high, joint):
     curve = joined([level(low), level(high)], [joint])

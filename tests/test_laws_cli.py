@@ -158,6 +158,15 @@ def test_gaps_of_a_grid_are_told(tmp_path):
         read_drag_table(file)
 
 
+def test_places_that_nine_digits_cannot_tell_apart_are_one(tmp_path):
+    file = tmp_path / "table.csv"
+    file.write_text("reynolds,normal,tangential\n1e8,1,0\n100000000.00000001,2,0\n2e8,1,0\n")
+    with pytest.raises(CaseError, match="keep one row for each"):
+        read_drag_table(file)
+    file.write_text(BY_ANGLE.replace("100,45", "100.0000000000001,45"))
+    assert read_drag_table(file).reynolds == (100.0, 1000.0)
+
+
 @pytest.mark.parametrize(
     ("text", "found"),
     [

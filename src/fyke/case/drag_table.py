@@ -19,8 +19,9 @@ BY_ANGLE = ("reynolds", "angle", "drag", "lift")
 _ALLOWED = {
     "reynolds": ("a number from 1e-6 to 1e9", 1e-6, 1e9),
     "angle": ("an angle from 0 (along the bar) to 90 deg (across)", 0.0, 90.0),
-    "lift": ("a number from -1000 to 1000", -1e3, 1e3),
+    "lift": ("a number from -1e9 to 1e9", -1e9, 1e9),
 }
+_DIGITS = 9  # of Reynolds numbers and angles; closer ones would make a step of no width
 _COEFFICIENT = ("a number from 0 to 1e9", 0.0, 1e9)
 
 
@@ -83,7 +84,9 @@ def _read(path: Path, problems: list[Problem]) -> tuple[tuple[str, ...], list[_R
         faults = list(_faults(where, columns, texts))
         problems += faults
         if not faults:
-            rows.append(_Row(where, tuple(map(float, texts))))
+            keys = sum(column in BY_ANGLE[:2] for column in columns)
+            places = (float(f"{float(text):.{_DIGITS}g}") for text in texts[:keys])
+            rows.append(_Row(where, (*places, *map(float, texts[keys:]))))
     return columns, rows
 
 

@@ -42,9 +42,7 @@ def list_laws(*, json: bool) -> int:
                     console.print(Text(" " * 6 + line, style="dim" if words is not where else ""))
         console.print()
     console.print(Text("d twine or knot diameter, l bar length, Re = d V / nu, Sn solidity, V speed"))
-    console.print(
-        Text("angles: of a bar to the flow, 90 deg across; of a panel's normal to the flow, 0 face on")
-    )
+    console.print(Text("angles of a bar to the flow, 90 deg across; of a panel's normal, 0 face on"))
     return DONE
 
 

@@ -174,8 +174,8 @@ class ChooCasarella(SplitLaw):
     title = "Choo and Casarella's towed cable"
     source = "Y.I. Choo, M.J. Casarella, Hydrodynamic resistance of towed cables, J. Hydronautics 5(4), 126-131, 1971"
     read = (
-        "in three public codes that agree, beyond Re = 2.33e5 in one of them; the unit of C_t was worked out; the paper "
-        "was not opened"
+        "in three public codes that agree, beyond Re = 2.33e5 in one of them; the unit of C_t was worked out; the "
+        "paper was not opened"
     )
     stated = (Range(REYNOLDS, 0.0, 1e7),)
     curve: ClassVar[Curve] = cylinder.CHOO_CASARELLA
