@@ -114,6 +114,40 @@ def cite(case: CaseFile) -> None:
     raise typer.Exit(print_sources(case))
 
 
+laws = typer.Typer(help="List the drag laws, each with its range, area and source; plot draws them.")
+app.add_typer(laws, name="laws")
+
+
+@laws.callback(invoke_without_command=True)
+def _laws(
+    context: typer.Context,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+) -> None:
+    if context.invoked_subcommand is None:
+        from .laws import list_laws
+
+        raise typer.Exit(list_laws(json=json))
+
+
+@laws.command("plot")
+def plot_of_laws(
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="NAMES", show_default=False, help="Laws, or CSV tables of your own; all laws."
+        ),
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("-o", "--output", metavar="FILE", help="Picture, as .png and .svg.")
+    ] = Path("laws.png"),
+    overwrite: Annotated[bool, typer.Option("--overwrite", help="Replace pictures that are there.")] = False,
+) -> None:
+    """Draw drag laws over measured points."""
+    from .laws import plot_laws
+
+    raise typer.Exit(plot_laws(names or [], output, overwrite=overwrite))
+
+
 @app.command()
 def report(
     result: ResultPath,

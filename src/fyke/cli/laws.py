@@ -1,0 +1,148 @@
+"""fyke laws: the drag laws that are known, and pictures of them."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Mapping
+from dataclasses import MISSING, fields
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from rich.text import Text
+
+from ..case import CaseError, Problem, json_schema
+from ..case.drag_table import read_drag_table
+from ..water.laws import LAWS, AngleLaw, BarLaw, Law
+from .show import DONE, WRONG_INPUT, print_json, print_problems, stdout
+
+TITLES = {
+    "bars": "Bars: drag across and along a bar, by the Reynolds number of the twine",
+    "knots": "Knots: drag of a sphere, by the Reynolds number of the knot",
+    "panels": "Panels: drag and lift of a plane panel as a whole, by angle and solidity",
+}
+NO_OTHER_NETTING = "bi"  # a fit to one netting says nothing of another, so it is drawn only when asked for
+
+
+def list_laws(*, json: bool) -> int:
+    """Print every law by kind and return the exit code."""
+    found = {kind: [_described(kind, law) for law in laws.values()] for kind, laws in LAWS.items()}
+    if json:
+        print_json(found)
+        return DONE
+    console = stdout()
+    for kind, laws in found.items():
+        console.print(Text(TITLES[kind], style="bold"))
+        for law in laws:
+            used = "  (in case files)" if law["in_case_file"] else ""
+            console.print(Text.assemble(("  " + law["name"], "bold"), f"  {law['title']}{used}"))
+            where = f"{'; '.join(law['range']) or 'no range stated'}; on {law['area']}"
+            for words in (where, law["source"], f"read {law['read']}"):
+                for line in textwrap.wrap(words, console.width - 6) if words not in {"read -"} else ():
+                    console.print(Text(" " * 6 + line, style="dim" if words is not where else ""))
+        console.print()
+    console.print(Text("d twine or knot diameter, l bar length, Re = d V / nu, Sn solidity, V speed"))
+    console.print(Text("angles of a bar to the flow, 90 deg across; of a panel's normal, 0 face on"))
+    return DONE
+
+
+def in_case_files() -> Mapping[str, frozenset[str]]:
+    """Return the names of the laws that a case file takes, by kind, from its schema."""
+    schema = json_schema()
+    drag = schema["$defs"]["Drag"]["properties"]
+    return {kind: frozenset(_law_names(drag[kind], schema["$defs"])) for kind in LAWS if kind in drag}
+
+
+def _law_names(node: Any, models: Mapping[str, Any]) -> Iterator[str]:
+    """Yield what the key `law` may be in a part of the schema and in the models that it points to."""
+    if isinstance(node, list):
+        for one in node:
+            yield from _law_names(one, models)
+    if not isinstance(node, dict):
+        return
+    if "$ref" in node:
+        yield from _law_names(models[node["$ref"].rsplit("/", 1)[-1]], models)
+    word = node.get("properties", {}).get("law", {})
+    yield from [word["const"]] if "const" in word else word.get("enum", [])
+    for key in ("anyOf", "oneOf", "allOf"):
+        yield from _law_names(node.get(key, []), models)
+
+
+def _described(kind: str, law: type[Law]) -> dict[str, Any]:
+    asked = [one for one in fields(law) if one.default is MISSING]  # type: ignore[arg-type]
+    ranges = ["that of its points"] if asked else [str(one) for one in law().ranges]
+    return {
+        "name": law.name,
+        "title": law.title,
+        "range": ranges,
+        "area": law.area,
+        "angle": _angle(law),
+        "parameters": {one.name: None if one in asked else one.default for one in fields(law)},  # type: ignore[arg-type]
+        "source": law.source,
+        "read": law.read,
+        "in_case_file": law.name in in_case_files().get(kind, ()),
+    }
+
+
+def _angle(law: type[Law]) -> str:
+    if issubclass(law, AngleLaw):
+        return "between bar and flow, 90 deg across"
+    if issubclass(law, BarLaw):
+        return "by the speeds across and along the bar"
+    return "between normal and flow, 0 deg face on" if law in LAWS["panels"].values() else "none"
+
+
+def plot_laws(names: list[str], output: Path, *, overwrite: bool) -> int:
+    """Draw laws over measured points as PNG and SVG and return the exit code; no names: all laws."""
+    from ..report.figures import write_figure
+    from ..report.laws import drag_laws
+
+    problems: list[Problem] = []
+    laws = [law for name in names or _all() for law in _of_name(name, problems)]
+    files = [output.with_suffix(ending) for ending in (".png", ".svg")]
+    if output.suffix not in {"", ".png", ".svg"}:
+        allowed, cure = "a name that ends in .png or .svg", "both are written whichever you name"
+        problems.append(Problem("--output", str(output), allowed, cure))
+    for file in files:
+        if file.exists() and not overwrite:
+            cure = "choose another name with -o, or replace it with --overwrite"
+            problems.append(Problem(str(file), "a file of this name", "a new file", cure))
+    if not problems:
+        try:
+            written = write_figure(drag_laws(laws), output.with_suffix(""))
+        except OSError as error:
+            found, cure = error.strerror or str(error), "choose another place with -o"
+            problems.append(Problem(str(output), found, "a place to write to", cure))
+    if problems:
+        print_problems(problems)
+        return WRONG_INPUT
+    for file in written:
+        stdout().print(f"{file}", soft_wrap=True)
+    return DONE
+
+
+def _all() -> list[str]:
+    drawn = (name for laws in LAWS.values() for name, law in laws.items() if _ready(law))
+    return [name for name in dict.fromkeys(drawn) if name != NO_OTHER_NETTING]
+
+
+def _ready(law: type[Law]) -> bool:
+    """Whether a law can be made without parameters, as all but the tables can."""
+    return all(one.default is not MISSING for one in fields(law))  # type: ignore[arg-type]
+
+
+def _of_name(name: str, problems: list[Problem]) -> list[Law]:
+    """Return the laws of a name, of every kind, or that of a CSV file; add a problem when there is none."""
+    if name.endswith(".csv"):
+        try:
+            return [read_drag_table(name)]
+        except CaseError as error:
+            problems += error.problems
+            return []
+    found = [law() for laws in LAWS.values() if (law := laws.get(name)) is not None and _ready(law)]
+    if not found:
+        names = sorted({law for laws in LAWS.values() for law, kind in laws.items() if _ready(kind)})
+        near = get_close_matches(name, names, n=1)
+        cure = f"write {near[0]}" if near else "fyke laws lists them; give a table as its CSV file"
+        problems.append(Problem("name of a law", name, ", ".join(names), cure))
+    return found
