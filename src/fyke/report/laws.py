@@ -119,7 +119,7 @@ def _draw_panels(both: Sequence[Axes], laws: Sequence[PanelLaw]) -> None:
             ax.plot(np.degrees(angles), on_outline * values, label=law.name, **_look(number))
         _mark(ax, np.degrees(points[:, 0]), points[:, 1 + side], "measured, Patursson 2010", 3.4)
         ax.set_xlim(0.0, 90.0)
-        ax.set_ylim(bottom=min(0.0, *(float(np.min(line.get_ydata())) for line in ax.get_lines())))
+        ax.set_ylim(bottom=min(0.0, ax.dataLim.y0))
         ax.xaxis.set_major_locator(MultipleLocator(15.0))
         ax.set_xlabel("Angle of flow to normal (deg)")
         ax.set_ylabel(f"{what} coefficient on the outline (-)")
