@@ -12,6 +12,9 @@ from typer.testing import CliRunner
 from fyke.cli.app import app
 
 pytest.importorskip("viser", reason="the extra 'view' is not installed")
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
 from fyke.live import serve
 
 CASE = """
@@ -182,6 +185,13 @@ def test_the_next_case_of_the_folder_opens_and_a_broken_one_is_told(visit):
         page.get_by_role("option", name=name).click()
         page.get_by_text(shown).first.wait_for()
     assert page.get_by_text("Another one").is_visible()
+
+
+@pytest.mark.parametrize("origin", ["http://elsewhere.example", "http://elsewhere.example:18080", "null"])
+def test_pages_of_other_sites_are_not_let_in(live, origin):
+    with pytest.raises(InvalidStatus) as refused:
+        connect(live.url.replace("http", "ws"), origin=origin)
+    assert refused.value.response.status_code == 403
 
 
 def test_nobody_outside_is_let_in():

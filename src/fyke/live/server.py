@@ -5,11 +5,15 @@ from __future__ import annotations
 import errno
 import socket
 import threading
-from contextlib import redirect_stdout
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext, redirect_stdout
+from functools import partial
 from io import StringIO
 from pathlib import Path
 
 import viser
+import websockets.asyncio.server
+from websockets.typing import Origin
 
 from .page import Page
 from .study import Study
@@ -33,6 +37,23 @@ class _LocalServer(viser.ViserServer):
     def request_share_url(self, verbose: bool = True) -> str | None:
         """Refuse."""
         return None
+
+
+@contextmanager
+def _own_pages_only(port: int) -> Iterator[None]:
+    """Make a server that starts within accept its socket from its own pages only.
+
+    A page of any other site, open in the same browser, could otherwise connect to it, see the net and move it. viser
+    has no setting for this, but what it is built on has.
+    """
+    module, allowed = websockets.asyncio.server, [Origin(f"http://{name}:{port}") for name in LOCAL]
+    whole = module.serve
+    # None: programs other than browsers, which send no origin.
+    module.serve = partial(whole, origins=[*allowed, None])  # type: ignore[assignment,misc]
+    try:
+        yield
+    finally:
+        module.serve = whole  # type: ignore[misc]
 
 
 class Live:
@@ -76,7 +97,7 @@ def serve(
         )
     Study(text, path)  # A case that makes no page is told here, and the kernels are compiled.
     free = free_port(host, port)
-    with redirect_stdout(StringIO()):
+    with redirect_stdout(StringIO()), _own_pages_only(free) if host in LOCAL else nullcontext():
         server = _LocalServer(host=host, port=free, label="fyke", verbose=False)
     live = Live(server, host, free)
     cases = sorted(path.resolve().parent.glob("*.toml"))
