@@ -30,6 +30,9 @@ STRIDE = 8
 SCATTERED = np.iinfo(np.int64).min
 # A shift is worth a slot of its own for so many bars, and so large a part of the knots from the first to the last.
 FEWEST, WORTH = 4, 0.5
+# Knots nearer in height than so much of the shortest bar lie in one row; another order must have so many times fewer
+# ways from knot to neighbour.
+ROW, FEWER_WAYS = 1e-3, 0.5
 
 # Fields, flat with rows of Around.width: position m and velocity m/s at two times, velocity of the water m/s.
 HERE_ROWS, WATER, FIELD_ROWS = 6, 12, 15
@@ -159,6 +162,40 @@ class _Ends(NamedTuple):
     away: Ints
     bar: Ints
     twin: NDArray[np.bool_]
+
+
+def knots_in_order(el: Elements, positions: Array) -> Ints:
+    """Order (n,) of the knots in which most bars lead as far ahead as others: as numbered, or by place, rows first.
+
+    positions: (n, 3) m, of the net as built. Knots numbered by rows, as fyke numbers netting, stay as they are.
+    """
+    n = len(positions)
+    grain = ROW * float(el.rest_length.min(initial=np.inf))
+    if not (np.isfinite(grain) and grain > 0.0):
+        return np.arange(n)
+    rows = np.rint(positions / grain)
+    by_place = np.lexsort((rows[:, 0], rows[:, 1], rows[:, 2]))
+    place = np.empty(n, dtype=np.int64)
+    place[by_place] = np.arange(n)
+
+    def ways(numbers: Ints) -> int:
+        return len(np.unique(np.abs(numbers[el.knot_a] - numbers[el.knot_b])))
+
+    return by_place if ways(place) < FEWER_WAYS * ways(np.arange(n)) else np.arange(n)
+
+
+def renumbered(el: Elements, order: Ints) -> Elements:
+    """Return the elements with the knots in another order (n,)."""
+    place = np.empty(len(order), dtype=np.uint32)
+    place[order] = np.arange(len(order), dtype=np.uint32)
+    return el._replace(
+        knot_a=place[el.knot_a],
+        knot_b=place[el.knot_b],
+        knot_drag=el.knot_drag[order],
+        knot_mass=el.knot_mass[order],
+        weight=el.weight[order],
+        free=el.free[order],
+    )
 
 
 def bars_around(el: Elements) -> Around:

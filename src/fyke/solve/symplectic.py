@@ -29,6 +29,8 @@ from ..forces.around import (
     WATER,
     bars_around,
     extent,
+    knots_in_order,
+    renumbered,
 )
 from ..forces.compiled import OPTIONS
 from ..forces.gather import FAR, SPEED, WORK_ROWS, block_force, share_laws
@@ -146,7 +148,8 @@ class SymplecticRun:
     def __init__(self, method: Symplectic, system: System, state: State) -> None:
         self.method, self.system, self.state = method, system, state
         self.count = Count()
-        el = system.elements
+        self._order = knots_in_order(system.elements, system.net.positions)
+        self._elements = el = renumbered(system.elements, self._order)
         self.around = around = bars_around(el)
         self.threads = threads_for(system.net.bar_count)
         self.steps_per_call = int(np.clip(WORK_PER_CALL // max(system.net.bar_count, 1), *STEPS_PER_CALL))
@@ -170,21 +173,31 @@ class SymplecticRun:
         h = left / wanted
         flow = fluid_velocity(self.system, old)
         for row, values in ((0, old.position), (3, old.velocity), (WATER, flow)):
-            self.around.write(self._fields, row, values)
+            self.write(row, values)
         self.leap(h, steps, bool(np.all(flow == flow[0])))
         self.count.evaluations += steps + 1
         last = HERE_ROWS * ((steps + 1) % 2)
-        x, v = self.around.read(self._fields, last), self.around.read(self._fields, last + 3)
+        x, v = self.read(last), self.read(last + 3)
         if not (np.all(np.isfinite(x)) and np.all(np.isfinite(v))):
             return "not_finite"
         self.count.steps += steps
         self.state = State(end if steps == wanted else old.time + steps * h, x, v)
         return "ok"
 
+    def write(self, row: int, values: Array) -> None:
+        """Write values of the knots (n, 3) into three rows of the fields from row on."""
+        self.around.write(self._fields, row, values[self._order])
+
+    def read(self, row: int) -> Array:
+        """Return three rows of the fields from row on as values of the knots (n, 3)."""
+        values = np.empty((len(self._order), 3))
+        values[self._order] = self.around.read(self._fields, row)
+        return values
+
     def leap(self, h: float, steps: int, uniform: bool) -> None:
         """Take so many steps of h (s) from the fields as they stand; uniform: the same water velocity everywhere."""
         rates = np.zeros((2, self.threads * LINE))
-        arrays = (self.system.elements, self.around, self._law, self._inverse, rates)
+        arrays = (self._elements, self.around, self._law, self._inverse, rates)
         run_team(self.threads, leap, self._fields, h, steps, uniform, *arrays)
 
     def memory(self) -> Memory:
