@@ -41,3 +41,28 @@ def _number(cell: str) -> str | float:
 def thread(ea: float, diameter: float = 1e-3, density: float = 1000.0) -> fyke.Twine:
     """Twine of tensile stiffness EA (N)."""
     return fyke.Twine("thread", density, diameter, fyke.LinearLaw(ea / (np.pi / 4.0 * diameter**2)))
+
+
+def panel_case(meshes: int, side: float, *, title: str = "", knots: str = "", more: str = "") -> str:
+    """Case file of a diamond panel on a square frame of so many meshes and a side (m); knots: of the netting table."""
+    return f"""
+schema = 1
+title = "{title}"
+[current]
+velocity = [0.5, 0.0, 0.0]
+[twine.main]
+density = 1140.0
+diameter = "1.5 mm"
+youngs_modulus = "1.0 GPa"
+[netting.main]
+twine = "main"
+mesh = "diamond"
+bar_length = "30 mm"
+{knots}
+[[gear]]
+kind = "panel"
+netting = "main"
+meshes = [{meshes}, {meshes}]
+size = [{side}, {side}]
+{more}
+"""

@@ -10,6 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from fyke.cli.app import app
+from reference import panel_case
 
 pytest.importorskip("viser", reason="the extra 'view' is not installed")
 from websockets.exceptions import InvalidStatus
@@ -17,25 +18,7 @@ from websockets.sync.client import connect
 
 from fyke.live import serve
 
-CASE = """
-schema = 1
-title = "A small panel"
-[current]
-velocity = [0.5, 0.0, 0.0]
-[twine.main]
-density = 1140.0
-diameter = "1.5 mm"
-youngs_modulus = "1.0 GPa"
-[netting.main]
-twine = "main"
-mesh = "diamond"
-bar_length = "30 mm"
-[[gear]]
-kind = "panel"
-netting = "main"
-meshes = [4, 4]
-size = [0.15, 0.15]
-"""
+CASE = panel_case(4, 0.15, title="A small panel")
 
 
 @pytest.fixture(scope="module")

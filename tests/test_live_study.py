@@ -8,30 +8,13 @@ import numpy as np
 import pytest
 
 import fyke
+from reference import panel_case
 
 live = pytest.importorskip("fyke.live.study", reason="the extra 'view' is not installed")
 from fyke.live.knobs import knobs_of  # noqa: E402
 from fyke.live.server import AddressError, free_port, serve  # noqa: E402
 
-CASE = """
-schema = 1
-[current]
-velocity = [0.5, 0.0, 0.0]
-[twine.main]
-density = 1140.0
-diameter = "1.5 mm"
-youngs_modulus = "1.0 GPa"
-[netting.main]
-twine = "main"
-mesh = "diamond"
-bar_length = "30 mm"
-knot_diameter = "3.5 mm"
-[[gear]]
-kind = "panel"
-netting = "main"
-meshes = [4, 4]
-size = [0.15, 0.15]
-"""
+CASE = panel_case(4, 0.15, knots='knot_diameter = "3.5 mm"')
 
 
 def solved(text: str) -> fyke.Result:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from ..case import CaseError, Problem, recorded_case
+from ..case import Case, CaseError, Problem, recorded_case
 from ..results import ResultError, load
 from ..results.export import write_csv, write_vtkhdf, write_vtu
 from ..solve.result import Result
@@ -83,8 +83,14 @@ def opened(file: Path) -> tuple[Path, Result]:
 
 def current_of(result: Result) -> Vector | None:
     """Return the undisturbed current (m/s) of the case behind a result, None where it is not known."""
+    case = case_of(result)
+    return None if case is None else case.current.velocity
+
+
+def case_of(result: Result) -> Case | None:
+    """Return the case behind a result, None for a net made in Python and a case of another version."""
     try:
-        return recorded_case(result.case_text).current.velocity if result.case_text else None
+        return recorded_case(result.case_text) if result.case_text else None
     except CaseError:
         return None
 

@@ -69,6 +69,7 @@ def _law_names(node: Any, models: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _described(kind: str, law: type[Law]) -> dict[str, Any]:
+    # Every law is a dataclass, which its type does not say.
     asked = [one for one in fields(law) if one.default is MISSING]  # type: ignore[arg-type]
     ranges = ["that of its points"] if asked else [str(one) for one in law().ranges]
     return {
@@ -77,7 +78,7 @@ def _described(kind: str, law: type[Law]) -> dict[str, Any]:
         "range": ranges,
         "area": law.area,
         "angle": _angle(law),
-        "parameters": {one.name: None if one in asked else one.default for one in fields(law)},  # type: ignore[arg-type]
+        "parameters": {one.name: None if one in asked else one.default for one in fields(law)},  # type: ignore[arg-type] # so
         "source": law.source,
         "read": law.read,
         "in_case_file": law.name in in_case_files().get(kind, ()),
@@ -128,7 +129,7 @@ def _all() -> list[str]:
 
 def _ready(law: type[Law]) -> bool:
     """Whether a law can be made without parameters, as all but the tables can."""
-    return all(one.default is not MISSING for one in fields(law))  # type: ignore[arg-type]
+    return all(one.default is not MISSING for one in fields(law))  # type: ignore[arg-type] # a dataclass
 
 
 def _of_name(name: str, problems: list[Problem]) -> list[Law]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from ..case import Case, CaseError, Problem, recorded_case
-from ..results import Comparison, MeasurementError, ResultError, audit, compare, load, summary
+from ..case import Case
+from ..results import Comparison, MeasurementError, ResultError, audit, compare, summary
 from ..solve.result import Result
 from ..system.build import build_net, build_system
 from ..system.system import System
-from .folder import RESULT
+from .export import case_of, opened, taken, unwritten
 from .show import DONE, WRONG_INPUT, print_problems, print_warnings, stderr, stdout
 from .texts import sources_of
 
@@ -21,30 +21,29 @@ def report_result(file: Path, output: Path | None, positions: Path | None, *, ov
     """Write the report of a result, given as its file or the folder of its run, and return the exit code."""
     from ..report.page import Origin, write_report
 
-    source = file / RESULT if file.is_dir() else file
+    try:
+        source, result = opened(file)
+    except ResultError as error:
+        stderr().print(str(error), soft_wrap=True)
+        return WRONG_INPUT
     target = output or source.with_name(REPORT)
-    if target.exists() and not overwrite:
-        cure = "add --overwrite, or choose another name with -o FILE"
-        print_problems([Problem(str(target), "a file of this name", "a name for a new file", cure)])
+    problem = taken(target, source, overwrite=overwrite)
+    if problem is not None:
+        print_problems([problem])
         return WRONG_INPUT
     try:
-        result = load(source)
         case, system = behind(result)
         comparison, warnings = _measured(result, case, source, positions)
-        figures = _figures(result, case, system, comparison)
+        figures = _figures(result, case, system)
         figures["warnings"] += warnings
         sources = () if case is None or system is None else sources_of(case, system)
         origin = Origin(source, case, system, sources)
         write_report(result, target, figures=figures, origin=origin, comparison=comparison)
-    except ResultError as error:
-        stderr().print(str(error), soft_wrap=True)
-        return WRONG_INPUT
     except MeasurementError as error:
         print_problems(error.problems)
         return WRONG_INPUT
     except OSError as error:
-        found, cure = error.strerror or str(error), "free the disk, or choose another place with -o FILE"
-        print_problems([Problem(str(target), found, "a place that can be written", cure)])
+        print_problems([unwritten(target, error)])
         return WRONG_INPUT
     print_warnings(stdout(), warnings)
     size = target.stat().st_size / 1e6
@@ -54,11 +53,8 @@ def report_result(file: Path, output: Path | None, positions: Path | None, *, ov
 
 def behind(result: Result) -> tuple[Case, System] | tuple[None, None]:
     """Return case and system that made a result; None for a net made in Python and a case of another version."""
-    if not result.case_text:
-        return None, None
-    try:
-        case = recorded_case(result.case_text)
-    except CaseError:
+    case = case_of(result)
+    if case is None:
         return None, None
     system = build_system(build_net(case), case)
     return (case, system) if system.net.labels == result.net.labels else (None, None)
@@ -81,9 +77,7 @@ def _measured(
     ]
 
 
-def _figures(
-    result: Result, case: Case | None, system: System | None, comparison: Comparison | None
-) -> dict[str, Any]:
+def _figures(result: Result, case: Case | None, system: System | None) -> dict[str, Any]:
     figures = summary(
         result,
         current_direction=None if case is None else case.current.velocity,

@@ -253,8 +253,13 @@ class _SlotTable:
         )
         self.look_up_bars, self.margin = not el.linear, margin
         self.bars = _Shared()
-        self.first, self.shift, self.bars_row, self.other_row = [0], [], [], []  # type: ignore[var-annotated]
-        self.begin, self.end, self.both = [], [], []  # type: ignore[var-annotated]
+        self.first: list[int] = [0]
+        self.shift: list[int] = []
+        self.bars_row: list[int] = []
+        self.other_row: list[int] = []
+        self.begin: list[int] = []
+        self.end: list[int] = []
+        self.both: list[bool] = []
         self.other: list[Ints] = []
         self.bar: list[Ints] = []
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from llvmlite import ir  # type: ignore[import-untyped]
+from llvmlite import ir  # type: ignore[import-untyped] # has no types
 from numba import njit, types
 from numba.core import cgutils
 from numba.extending import intrinsic as _intrinsic

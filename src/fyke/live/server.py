@@ -49,11 +49,12 @@ def _own_pages_only(port: int) -> Iterator[None]:
     module, allowed = websockets.asyncio.server, [Origin(f"http://{name}:{port}") for name in LOCAL]
     whole = module.serve
     # None: programs other than browsers, which send no origin.
+    # A class there, and a partial does as well: types cannot say so.
     module.serve = partial(whole, origins=[*allowed, None])  # type: ignore[assignment,misc]
     try:
         yield
     finally:
-        module.serve = whole  # type: ignore[misc]
+        module.serve = whole  # type: ignore[misc] # as above
 
 
 class Live:

@@ -109,12 +109,7 @@ def audit(system: System, result: Result) -> Audit:
         raise ValueError("the result is of another net than the system")
     last, el = result.frame(), system.elements
     load = last.water_force + el.weight
-    t, _ = _directions(last, el)
-    pull = last.tension[:, None] * t
-    total = load.copy()
-    np.add.at(total, el.knot_a, pull)
-    np.subtract.at(total, el.knot_b, pull)
-    size = np.linalg.norm(total, axis=1) * el.free
+    size = np.linalg.norm(forces_on_knots(system, last), axis=1) * el.free
     worst = int(np.argmax(size))
     return Audit(
         unbalanced_force=float(size[worst]),
@@ -124,6 +119,17 @@ def audit(system: System, result: Result) -> Audit:
         load_less_reaction=load.sum(axis=0) - last.support_reaction,
         energy=_energy_budget(system, result) if len(result.time) > 1 else None,
     )
+
+
+def forces_on_knots(system: System, frame: Frame) -> Array:
+    """Water, weight, dead load and tensions on every knot, (n, 3) N; what a held knot hands to its support."""
+    el = system.elements
+    t, _ = _directions(frame, el)
+    pull = frame.tension[:, None] * t
+    total = frame.water_force + el.weight
+    np.add.at(total, el.knot_a, pull)
+    np.subtract.at(total, el.knot_b, pull)
+    return np.asarray(total)
 
 
 def elastic_energy(el: Elements, length: Array) -> Array:

@@ -37,13 +37,13 @@ class Clock:
 
     def __enter__(self) -> Self:
         self._token = _GOING.set(self)
-        event.register(_COMPILER, self._compiler)  # type: ignore[no-untyped-call]
+        event.register(_COMPILER, self._compiler)  # type: ignore[no-untyped-call] # numba has no types
         return self
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        event.unregister(_COMPILER, self._compiler)  # type: ignore[no-untyped-call]
+        event.unregister(_COMPILER, self._compiler)  # type: ignore[no-untyped-call] # numba has no types
         if self._token is not None:
             _GOING.reset(self._token)
 

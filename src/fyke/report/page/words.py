@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ...forces.frame import Frame
-from ...forces.total import TINY_LENGTH
 from ...netting.measures import measure_panel
 from ...netting.net import Panel
+from ...results.audit import forces_on_knots
 from ...solve.result import Result
 from ...system.system import System
 from ...version import __version__
@@ -28,6 +27,7 @@ PLAIN = {
     "stalled": "The solver got stuck: the shape below is the last one, not an equilibrium.",
     "singular": "The net cannot be solved as it is held: the shape below is not an equilibrium.",
     "not_finite": "The solver failed: the shape below is the last good one.",
+    "out_of_memory": "There was not enough memory to solve the net: the shape below is not an equilibrium.",
     "step_too_small": "The run failed before its end: the last good shape is shown.",
     "not_settled": "The net had not come to rest at the end of the run.",
     "interrupted": "The run was stopped or is still going on: what was there is shown.",
@@ -162,7 +162,7 @@ def support_rows(result: Result, system: System | None) -> list[tuple[str, str, 
     net, last = result.net, result.frame()
     rows = []
     if system is not None and len(net.panels) > 1:
-        force = _forces(last, system)
+        force = forces_on_knots(system, last)
         for panel in net.panels:
             held = np.flatnonzero(net.fixed[slice(*panel.knots)]) + panel.knots[0]
             if len(held):
@@ -172,17 +172,6 @@ def support_rows(result: Result, system: System | None) -> list[tuple[str, str, 
 
 def _support(name: str, held: int, force: Array) -> tuple[str, str, str, str]:
     return name, str(held), vector(force.tolist(), "N"), number(float(np.linalg.norm(force)), "N")
-
-
-def _forces(frame: Frame, system: System) -> Array:
-    """Tensions, water, weight and dead load on every knot, (n, 3) N; what a held knot hands to its support."""
-    bars = system.net.bars
-    along = frame.position[bars[:, 1]] - frame.position[bars[:, 0]]
-    pull = frame.tension[:, None] * along / np.maximum(np.linalg.norm(along, axis=1), TINY_LENGTH)[:, None]
-    total = frame.water_force + system.elements.weight
-    np.add.at(total, bars[:, 0], pull)
-    np.subtract.at(total, bars[:, 1], pull)
-    return np.asarray(total)
 
 
 def versions() -> list[tuple[str, str]]:
