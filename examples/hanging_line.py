@@ -14,7 +14,7 @@ load = np.zeros((bars + 1, 3))
 load[-1, 2] = -0.2
 
 line = fyke.line(twine, points, length / bars, fixed=(0,), load=load)
-coefficients = fyke.Coefficients(bar_normal=1.2, bar_tangential=0.02)
+coefficients = fyke.Coefficients(bars=fyke.ConstantBar(1.2, 0.02))
 for speed in (0.1, 0.3, 0.5, 1.0):
     system = fyke.make_system(line, current=(speed, 0.0, 0.0), coefficients=coefficients)
     result = fyke.solve_static(system)

@@ -11,7 +11,9 @@ import fyke
 
 # Neither water nor gravity, and forces of the water switched off: what is left is dead load and elasticity.
 NO_WATER = fyke.Water(density=0.0, gravity=0.0)
-NO_FORCES = fyke.Coefficients(0.0, 0.0, 0.0, 0.0, 0.0)
+NO_FORCES = fyke.Coefficients(
+    bars=fyke.ConstantBar(0.0, 0.0), knots=fyke.ConstantKnot(0.0), added_mass_bar=0.0, added_mass_knot=0.0
+)
 
 Row = dict[str, str | float]
 

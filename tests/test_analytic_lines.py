@@ -68,7 +68,12 @@ def crossflow(row, bars):
     points = np.zeros((bars + 1, 3))
     points[:, 1] = np.linspace(-half, half, bars + 1)
     net = fyke.line(thread(STIFF * row["tension_N"], row["diameter_m"]), points, row["length_m"] / bars)
-    coefficients = fyke.Coefficients(row["Cn"], 0.0, 0.0, 0.0, 0.0)
+    coefficients = fyke.Coefficients(
+        bars=fyke.ConstantBar(row["Cn"], 0.0),
+        knots=fyke.ConstantKnot(0.0),
+        added_mass_bar=0.0,
+        added_mass_knot=0.0,
+    )
     current = (row["speed_m_s"], 0.0, 0.0)
     system = fyke.make_system(net, current=current, water=NO_GRAVITY, coefficients=coefficients)
     result = fyke.solve_static(system)
@@ -110,7 +115,12 @@ def hang(row, bars, angle=np.pi / 2.0, gathered=1.0):
         fixed=(0,),
         load=load,
     )
-    coefficients = fyke.Coefficients(row["Cn"], row["Ct"], 0.0, 0.0, 0.0)
+    coefficients = fyke.Coefficients(
+        bars=fyke.ConstantBar(row["Cn"], row["Ct"]),
+        knots=fyke.ConstantKnot(0.0),
+        added_mass_bar=0.0,
+        added_mass_knot=0.0,
+    )
     current = (row["speed_m_s"], 0.0, 0.0)
     system = fyke.make_system(net, current=current, water=NO_GRAVITY, coefficients=coefficients)
     return fyke.solve_static(system)

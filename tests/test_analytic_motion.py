@@ -12,9 +12,11 @@ from reference import NO_FORCES, NO_WATER, grouped, table, thread
 
 EXACT = fyke.Verner(rtol=1e-10, atol=1e-12)
 SPHERE = fyke.Coefficients(
-    bar_normal=0.0, bar_tangential=0.0, knot=0.47, added_mass_bar=0.0, added_mass_knot=0.5
+    bars=fyke.ConstantBar(0.0, 0.0), knots=fyke.ConstantKnot(0.47), added_mass_bar=0.0, added_mass_knot=0.5
 )
-CYLINDER = fyke.Coefficients(bar_normal=1.2, bar_tangential=0.1, knot=0.0, added_mass_bar=1.0)
+CYLINDER = fyke.Coefficients(
+    bars=fyke.ConstantBar(1.2, 0.1), knots=fyke.ConstantKnot(0.0), added_mass_bar=1.0
+)
 
 
 def sphere(diameter, density):

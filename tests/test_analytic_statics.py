@@ -76,7 +76,12 @@ def test_sphere_on_a_string_in_a_current(row):
             knot_diameter=[0.0, 0.04],
             knot_density=7850.0,
         )
-        coefficients = fyke.Coefficients(0.0, 0.0, 0.47, 0.0, 0.0)
+        coefficients = fyke.Coefficients(
+            bars=fyke.ConstantBar(0.0, 0.0),
+            knots=fyke.ConstantKnot(0.47),
+            added_mass_bar=0.0,
+            added_mass_knot=0.0,
+        )
         system = fyke.make_system(net, current=(row["speed_m_s"], 0.0, 0.0), coefficients=coefficients)
         result = fyke.solve_static(system, tolerance=1e-10)
         assert result.outcome.ok

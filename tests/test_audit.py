@@ -51,7 +51,9 @@ def sphere(current, velocity):
     net = fyke.line(
         thread(1.0), [[0.0, 0.0, 0.0]], 1.0, fixed=(), knot_diameter=DIAMETER, knot_density=DENSITY
     )
-    system = fyke.make_system(net, current=current, coefficients=fyke.Coefficients(knot=DRAG))
+    system = fyke.make_system(
+        net, current=current, coefficients=fyke.Coefficients(knots=fyke.ConstantKnot(DRAG))
+    )
     start = fyke.State(0.0, net.positions, np.array([velocity]))
     result = fyke.simulate(system, duration=2.0, every=0.25, start=start, stepper=EXACT)
     return audit(system, result)
@@ -188,7 +190,15 @@ def test_added_mass_of_a_bar_that_turns_across_its_way():
     """A bar turns from along its way to across it: the water at it gains 1/2 C_a rho pi/4 d^2 L V^2."""
     speed, spin, half = 0.7, 3.0, 0.25
     net = fyke.line(thread(1.0, diameter=0.02), [[-half, 0.0, 0.0], [half, 0.0, 0.0]], 2.0 * half, fixed=())
-    system = fyke.make_system(net, coefficients=fyke.Coefficients(0.0, 0.0, 0.0, 1.0, 0.0))
+    system = fyke.make_system(
+        net,
+        coefficients=fyke.Coefficients(
+            bars=fyke.ConstantBar(0.0, 0.0),
+            knots=fyke.ConstantKnot(0.0),
+            added_mass_bar=1.0,
+            added_mass_knot=0.0,
+        ),
+    )
     states = []
     for time in np.linspace(0.0, np.pi / 2.0 / spin, 33):
         along = np.array([np.cos(spin * time), np.sin(spin * time), 0.0])

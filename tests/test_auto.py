@@ -92,7 +92,7 @@ def test_crossing_time_by_hand(framed, nylon):
     net = fyke.line(
         replace(nylon, density=0.0), [[0, 0, 0]], [], fixed=(), knot_diameter=0.1, knot_density=1100.0
     )
-    ball = fyke.make_system(net, coefficients=fyke.Coefficients(knot=10.0))
+    ball = fyke.make_system(net, coefficients=fyke.Coefficients(knots=fyke.ConstantKnot(10.0)))
     speed = np.sqrt(4.0 / 3.0 * 0.1 * 9.81 * 0.1 / 10.0)
     assert crossing_time(ball, ball.at_rest()) == pytest.approx(0.1 / speed)
     still = fyke.make_system(framed().net, water=fyke.Water(gravity=0.0))

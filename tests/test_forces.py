@@ -9,7 +9,7 @@ import pytest
 
 import fyke
 from fyke.forces.bars import assemble, bar_geometry
-from fyke.forces.drag import bar_water_tangent
+from fyke.forces.drag import bar_water_tangents
 from fyke.forces.evaluate import evaluate
 from fyke.forces.inertia import invert_masses, largest_frequency, mass_matrices
 from fyke.forces.tension import law_tension
@@ -45,11 +45,14 @@ def test_drag_tangent_against_complex_step(seed):
     rng = np.random.default_rng(seed)
     d, w = rng.normal(size=3), rng.normal(size=3)
     cn, ct = rng.uniform(0.1, 2.0, size=2)
-    out = np.empty((3, 3))
-    bar_water_tangent(w, d / np.linalg.norm(d), cn, ct, out)
+    turn, press = np.empty((3, 3)), np.empty((3, 3))
+    length = np.linalg.norm(d)
+    bar_water_tangents(w, d / length, (cn, ct, 0.0, 0.0, 0.0, 0.0), length, turn, press)
     step = 1e-30
-    exact = np.column_stack([complex_water(d + 1j * step * e, w, cn, ct).imag / step for e in np.eye(3)])
-    assert np.abs(out - exact).max() < 1e-13
+    by_place = [complex_water(d + 1j * step * e, w, cn, ct).imag / step for e in np.eye(3)]
+    by_speed = [complex_water(d, w + 1j * step * e, cn, ct).imag / step for e in np.eye(3)]
+    assert np.abs(turn - np.column_stack(by_place)).max() < 1e-13
+    assert np.abs(press - np.column_stack(by_speed)).max() < 1e-13
 
 
 def test_assembled_tangent_against_differences(framed):

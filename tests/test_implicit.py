@@ -81,7 +81,7 @@ def test_second_order_on_a_sinking_sphere(stepper):
     """Against v = v_t tanh(t / tau), z = v_t tau ln cosh(t / tau)."""
     twine = fyke.Twine("none", 1000.0, 1e-6, fyke.LinearLaw(1e3))
     net = fyke.line(twine, [[0, 0, 0]], [], fixed=(), knot_diameter=0.01, knot_density=1140.0)
-    system = fyke.make_system(net, coefficients=fyke.Coefficients(knot=0.47))
+    system = fyke.make_system(net, coefficients=fyke.Coefficients(knots=fyke.ConstantKnot(0.47)))
     speed = np.sqrt(4 / 3 * 0.14 * 9.81 * 0.01 / 0.47)
     tau = speed * (1.14 + 0.5) / (0.14 * 9.81)
     errors = []
@@ -254,7 +254,7 @@ def test_variable_steps_keep_the_second_order_on_a_sinking_sphere():
     """Steps that grow and shrink by a half, in turns: the exact z falls apart by the square of the step."""
     twine = fyke.Twine("none", 1000.0, 1e-6, fyke.LinearLaw(1e3))
     net = fyke.line(twine, [[0, 0, 0]], [], fixed=(), knot_diameter=0.01, knot_density=1140.0)
-    system = fyke.make_system(net, coefficients=fyke.Coefficients(knot=0.47))
+    system = fyke.make_system(net, coefficients=fyke.Coefficients(knots=fyke.ConstantKnot(0.47)))
     speed = np.sqrt(4 / 3 * 0.14 * 9.81 * 0.01 / 0.47)
     tau = speed * (1.14 + 0.5) / (0.14 * 9.81)
     errors = []

@@ -271,7 +271,7 @@ def test_frequency_is_that_of_the_motion():
     twine = fyke.Twine("soft", 1140.0, 2e-3, fyke.LinearLaw(3e6))
     net = fyke.panel(twine, mesh="diamond", meshes=(4, 4), bar_length=0.03, size=(0.15, 0.15))
     net = replace(net, load=np.tile([0.02, 0.0, 0.0], (net.knot_count, 1)))
-    undamped = fyke.Coefficients(bar_normal=0.0, bar_tangential=0.0, knot=0.0)
+    undamped = fyke.Coefficients(bars=fyke.ConstantBar(0.0, 0.0), knots=fyke.ConstantKnot(0.0))
     system = fyke.make_system(net, coefficients=undamped)
     rest = fyke.solve_static(system, tolerance=1e-11).position[-1]
     found = fyke.modes(system, rest, count=3)

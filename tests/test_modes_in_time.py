@@ -160,7 +160,12 @@ def test_a_ball_in_a_current_swings_at_its_mode_damped_by_the_drag(name):
         replace(net, load=load),
         current=(speed, 0.0, 0.0),
         water=fyke.Water(gravity=0.0),
-        coefficients=fyke.Coefficients(0.0, 0.0, 1.0, 0.0, 0.5),
+        coefficients=fyke.Coefficients(
+            bars=fyke.ConstantBar(0.0, 0.0),
+            knots=fyke.ConstantKnot(1.0),
+            added_mass_bar=0.0,
+            added_mass_knot=0.5,
+        ),
     )
     rest_position = fyke.solve_static(system, tolerance=1e-12).position[-1]
     assert np.abs(rest_position - net.positions).max() < 1e-9

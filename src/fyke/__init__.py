@@ -24,15 +24,20 @@ if TYPE_CHECKING:
     from .solve.static import solve_static
     from .solve.symplectic import Symplectic
     from .solve.verner import Verner
-    from .system.build import Coefficients, Water, build_net, build_system, make_system
+    from .system.build import build_net, build_system, make_system
+    from .system.laws import Coefficients, Water
     from .system.system import State, System
+    from .water.laws.bars import ConstantBar
+    from .water.laws.knots import ConstantKnot
 
 # Names are fetched when first used, so that `import fyke` and `fyke --help` are quick.
 _HOME = {
     "Auto": "solve.auto",
     "Case": "case",
     "CaseError": "case",
-    "Coefficients": "system.build",
+    "Coefficients": "system.laws",
+    "ConstantBar": "water.laws.bars",
+    "ConstantKnot": "water.laws.knots",
     "Implicit": "solve.implicit",
     "LinearLaw": "netting.elastic",
     "Modes": "solve.modes",
@@ -48,7 +53,7 @@ _HOME = {
     "TableLaw": "netting.elastic",
     "Twine": "netting.twine",
     "Verner": "solve.verner",
-    "Water": "system.build",
+    "Water": "system.laws",
     "build_net": "system.build",
     "build_system": "system.build",
     "line": "netting.line",
@@ -68,6 +73,8 @@ __all__ = [
     "Case",
     "CaseError",
     "Coefficients",
+    "ConstantBar",
+    "ConstantKnot",
     "Implicit",
     "LinearLaw",
     "Modes",

@@ -57,8 +57,8 @@ class Around(NamedTuple):
     neighbours, other_row: (s,) which row of it; bars: flat (rows, BAR_ROWS, BLOCK), properties as in Elements,
     bars_row: (s,) which row; knots: flat (rows, KNOT_ROWS, BLOCK), weight N, knot drag kg/m, drag coefficient of all
     that hangs on the knot kg/m, mass kg, free; knots_row: (blocks,). Blocks and slots that are alike share a row, which
-    spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where laws are not linear. linear, damped:
-    as in Elements.
+    spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where laws are not linear or plain or bars
+    are renewed. linear, damped, plain: as in Elements.
     """
 
     knot_count: int
@@ -78,6 +78,7 @@ class Around(NamedTuple):
     bar: NDArray[np.uint32]
     linear: bool
     damped: bool
+    plain: bool
 
     @property
     def blocks(self) -> int:
@@ -141,11 +142,15 @@ def extent(block, around):
 class _Shared:
     """Arrays of one shape, the equal ones kept once."""
 
-    def __init__(self) -> None:
+    def __init__(self, *, all_apart: bool = False) -> None:
         self.kept: list[Array] = []
         self._place: dict[bytes, int] = {}
+        self._all_apart = all_apart
 
     def keep(self, array: Array) -> int:
+        if self._all_apart:
+            self.kept.append(array)
+            return len(self.kept) - 1
         place = self._place.setdefault(array.tobytes(), len(self.kept))
         if place == len(self.kept):
             self.kept.append(array)
@@ -195,11 +200,12 @@ def renumbered(el: Elements, order: Ints) -> Elements:
         knot_mass=el.knot_mass[order],
         weight=el.weight[order],
         free=el.free[order],
+        knot_curve=el.knot_curve[order],
     )
 
 
-def bars_around(el: Elements) -> Around:
-    """Lay out the bars around the knots of a net."""
+def bars_around(el: Elements, *, renewable: bool = False) -> Around:
+    """Lay out the bars around the knots of a net; renewable: their drag and added mass are to be renewed later on."""
     n, m = len(el.free), len(el.knot_a)
     a, b = el.knot_a.astype(np.int64), el.knot_b.astype(np.int64)
     knot, away, bar = np.concatenate([a, b]), np.concatenate([b - a, a - b]), np.tile(np.arange(m), 2)
@@ -210,7 +216,7 @@ def bars_around(el: Elements) -> Around:
     blocks = -(-n // BLOCK)
     start = np.searchsorted(knot // BLOCK, np.arange(blocks + 1))
     margin = int(np.abs(away).max(initial=0)) + BLOCK
-    slots = _SlotTable(el, margin)
+    slots = _SlotTable(el, margin, renewable)
     for block in range(blocks):
         s = slice(start[block], start[block + 1])
         low = block * BLOCK
@@ -234,13 +240,27 @@ def bars_around(el: Elements) -> Around:
         bar=np.array(slots.bar, dtype=np.uint32).reshape(-1, BLOCK),
         linear=el.linear,
         damped=el.damped,
+        plain=el.plain,
     )
+
+
+def renew(around: Around, el: Elements) -> Around:
+    """Return what bars_around laid out to be renewed with the drag, mass and weight of present elements."""
+    rows = around.bars.reshape(-1, BAR_ROWS, BLOCK)
+    for row, values in (
+        (NORMAL, el.normal_drag),
+        (TANGENTIAL, el.tangential_drag),
+        (ADDED, el.bar_added_mass),
+    ):
+        rows[:, row] = np.append(values, 0.0)[around.bar]
+    knots, knots_row = _knot_rows(el, around.blocks)
+    return around._replace(knots=knots, knots_row=knots_row)
 
 
 class _SlotTable:
     """The slots of the blocks so far, as in Around."""
 
-    def __init__(self, el: Elements, margin: int) -> None:
+    def __init__(self, el: Elements, margin: int, renewable: bool) -> None:
         self.properties = np.stack(
             (
                 el.rest_length,
@@ -251,8 +271,8 @@ class _SlotTable:
                 el.bar_added_mass,
             )
         )
-        self.look_up_bars, self.margin = not el.linear, margin
-        self.bars = _Shared()
+        self.look_up_bars, self.margin = renewable or not (el.linear and el.plain), margin
+        self.bars = _Shared(all_apart=renewable)
         self.first: list[int] = [0]
         self.shift: list[int] = []
         self.bars_row: list[int] = []

@@ -3,7 +3,7 @@
 On each end, with w the velocity of the water relative to the bar's middle and t the unit vector along it,
     F = L (c_n |n| n + c_t |s| s t),   s = w.t,  n = w - s t,
 c = 1/4 rho C d (kg/m2): half of 1/2 rho C d L. Choo & Casarella 1971 use the same split; it holds for any coefficient
-law, because the laws only change c_n and c_t.
+law, because the laws (forces.laws) only change c_n and c_t.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit
 
 from .compiled import OPTIONS
+from .laws import bar_law, knot_law
 
 
 @njit(**OPTIONS)
@@ -25,28 +26,70 @@ def bar_water_force(wx, wy, wz, tx, ty, tz, cn, ct):
 
 
 @njit(**OPTIONS)
-def bar_water_tangent(w, t, cn, ct, out):
-    """Tangent dF/d(x_b - x_a) of one end's force into out (3, 3) N/m; w, t: (3,).
+def bar_water_tangents(w, t, law, length, turn, press):
+    """Tangents of one end's force: dF/d(x_b - x_a) into turn N/m, dF/dw into press N s/m, both (3, 3); w, t: (3,).
 
-    F = L g(t) gives dF = g t^T + dg/dt (I - t t^T), with
-    dg/dt = c_n (|n| I + n n^T / |n|) (-(t w^T + s I)) + c_t (2 |s| t w^T + |s| s I).
+    law: c_n, c_t and their slopes as forces.laws gives them. F = L g(t) gives dF = g t^T + dg/dt (I - t t^T), with
+    dg/dt = c_n (|n| I + n n^T/|n|) (-(t w^T + s I)) + c_t (2 |s| t w^T + |s| s I);
+    dF/dw = L (c_n (|n| (I - t t^T) + n n^T/|n|) + 2 c_t |s| t t^T). With the square q = |n|^2 the slopes add
+    (c_n,s - 2 s c_n,q) |n| n n^T + (c_t,s - 2 s c_t,q) |s| s t n^T to the first, and to the second
+    L (|n| n (2 c_n,q n + c_n,s t)^T + |s| s t (2 c_t,q n + c_t,s t)^T).
     """
+    cn, ct, cn_q, cn_s, ct_q, ct_s = law
     s = w[0] * t[0] + w[1] * t[1] + w[2] * t[2]
     n0, n1, n2 = w[0] - s * t[0], w[1] - s * t[1], w[2] - s * t[2]
     size = np.sqrt(n0 * n0 + n1 * n1 + n2 * n2)
     inverse = 1.0 / size if size > 0.0 else 0.0
     n = (n0, n1, n2)
     g = bar_water_force(w[0], w[1], w[2], t[0], t[1], t[2], cn, ct)
+    speed = abs(s)
+    turn_n, turn_t = (cn_s - 2.0 * s * cn_q) * size, (ct_s - 2.0 * s * ct_q) * speed * s
     # (|n| I + n n^T/|n|) t = |n| t because n is normal to t.
     for p in range(3):
         row0 = row1 = row2 = 0.0
         for q in range(3):
             identity = 1.0 if p == q else 0.0
-            dg = -cn * (size * t[p] * w[q] + s * (size * identity + n[p] * n[q] * inverse))
-            dg += ct * abs(s) * (2.0 * t[p] * w[q] + s * identity)
+            nn, tt = n[p] * n[q], t[p] * t[q]
+            dg = -cn * (size * t[p] * w[q] + s * (size * identity + nn * inverse))
+            dg += ct * speed * (2.0 * t[p] * w[q] + s * identity)
             row0 += dg * ((1.0 if q == 0 else 0.0) - t[q] * t[0])
             row1 += dg * ((1.0 if q == 1 else 0.0) - t[q] * t[1])
             row2 += dg * ((1.0 if q == 2 else 0.0) - t[q] * t[2])
-        out[p, 0] = g[p] * t[0] + row0
-        out[p, 1] = g[p] * t[1] + row1
-        out[p, 2] = g[p] * t[2] + row2
+            drag = cn * (size * (identity - tt) + nn * inverse) + 2.0 * ct * speed * tt
+            drag += size * n[p] * (2.0 * cn_q * n[q] + cn_s * t[q])
+            drag += speed * s * t[p] * (2.0 * ct_q * n[q] + ct_s * t[q])
+            press[p, q] = length * drag
+        along = turn_n * n[p] + turn_t * t[p]
+        turn[p, 0] = g[p] * t[0] + row0 + along * n0
+        turn[p, 1] = g[p] * t[1] + row1 + along * n1
+        turn[p, 2] = g[p] * t[2] + row2 + along * n2
+
+
+@njit(**OPTIONS)
+def present_law(w, t, e, el):
+    """c_n, c_t (kg/m2) and their four slopes of bar e for water of velocity w (3,) m/s past it, t its direction."""
+    if el.plain:
+        return el.normal_drag[e], el.tangential_drag[e], 0.0, 0.0, 0.0, 0.0
+    s = w[0] * t[0] + w[1] * t[1] + w[2] * t[2]
+    n0, n1, n2 = w[0] - s * t[0], w[1] - s * t[1], w[2] - s * t[2]
+    return bar_law(n0 * n0 + n1 * n1 + n2 * n2, s, e, el)
+
+
+@njit(**OPTIONS)
+def present_coefficients(wx, wy, wz, tx, ty, tz, e, el):
+    """c_n, c_t (kg/m2) of bar e for water of velocity w past it, t its direction."""
+    if el.plain:
+        return el.normal_drag[e], el.tangential_drag[e]
+    s = wx * tx + wy * ty + wz * tz
+    nx, ny, nz = wx - s * tx, wy - s * ty, wz - s * tz
+    law = bar_law(nx * nx + ny * ny + nz * nz, s, e, el)
+    return law[0], law[1]
+
+
+@njit(**OPTIONS)
+def present_knot_drag(square, i, el):
+    """1/2 rho C_D pi/4 d^2 (kg/m) of knot i at a speed squared (m2/s2), and its slope by that."""
+    if el.plain:
+        return el.knot_drag[i], 0.0
+    value, slope = knot_law(square, el.knot_curve[i], el.knot_curves)
+    return el.knot_drag[i] * value, el.knot_drag[i] * slope

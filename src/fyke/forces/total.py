@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from .compiled import OPTIONS
-from .drag import bar_water_force
+from .drag import bar_water_force, present_coefficients, present_knot_drag
 from .tension import law_tension
 
 # Bars are taken in blocks that fit the first-level cache: gather, vector mathematics, scatter.
@@ -29,7 +29,8 @@ def knot_forces(v, u, el, rel, out):
         wx = u[i, 0] - v[i, 0]
         wy = u[i, 1] - v[i, 1]
         wz = u[i, 2] - v[i, 2]
-        c = el.knot_drag[i] * np.sqrt(wx * wx + wy * wy + wz * wz)
+        square = wx * wx + wy * wy + wz * wz
+        c = present_knot_drag(square, i, el)[0] * np.sqrt(square)
         rel[i, 0], rel[i, 1], rel[i, 2] = wx, wy, wz
         out[i, 0] = el.weight[i, 0] + c * wx
         out[i, 1] = el.weight[i, 1] + c * wy
@@ -71,16 +72,9 @@ def total_force(x, v, u, el, rel, g, out):
             length = np.sqrt(dx * dx + dy * dy + dz * dz)
             inverse = 1.0 / max(length, TINY_LENGTH)
             tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
-            fx, fy, fz = bar_water_force(
-                g[3, i],
-                g[4, i],
-                g[5, i],
-                tx,
-                ty,
-                tz,
-                el.normal_drag[e] * length,
-                el.tangential_drag[e] * length,
-            )
+            wx, wy, wz = g[3, i], g[4, i], g[5, i]
+            cn, ct = present_coefficients(wx, wy, wz, tx, ty, tz, e, el)
+            fx, fy, fz = bar_water_force(wx, wy, wz, tx, ty, tz, cn * length, ct * length)
             stretch = length - el.rest_length[e]
             if el.linear:
                 tension = el.stiffness[e] * stretch

@@ -29,8 +29,9 @@ from ..forces.bars import bar_geometry, elastic
 from ..forces.frame import Frame
 from ..forces.total import TINY_LENGTH
 from ..solve.result import Result
+from ..solve.stepper import fluid_velocity
 from ..system.elements import Elements
-from ..system.system import System
+from ..system.system import State, System
 
 Array = NDArray[np.float64]
 
@@ -197,7 +198,7 @@ def _elastic_length(el: Elements, frame: Frame) -> Array:
 def _powers(system: System, frame: Frame) -> tuple[float, float, float, float]:
     """Power (W) of current, drag, twine damping and turning added mass in one frame."""
     el, force, v = system.elements, frame.water_force, frame.velocity
-    u = system.current.velocity(frame.position, frame.time)
+    u = fluid_velocity(system, State(frame.time, frame.position, frame.velocity))
     t, length = _directions(frame, el)
     va, vb = v[el.knot_a], v[el.knot_b]
     rate = np.einsum("eq,eq->e", vb - va, t)

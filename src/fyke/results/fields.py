@@ -28,8 +28,14 @@ FRAME_FIELDS: tuple[Field, ...] = (
     Field("position", ("time", "knot", "xyz"), "m", "position of every knot"),
     Field("velocity", ("time", "knot", "xyz"), "m s-1", "velocity of every knot"),
     Field("tension", ("time", "bar"), "N", "tension of every bar, 0 where slack"),
-    Field("bar_drag", ("time", "bar"), "N", "force of the water on a bar along the current at it"),
-    Field("bar_lift", ("time", "bar"), "N", "size of the force of the water on a bar across the current"),
+    Field("bar_drag", ("time", "bar"), "N", "force of the water on a bar along the flow at it"),
+    Field("bar_lift", ("time", "bar"), "N", "size of the force of the water on a bar across the flow"),
+    Field(
+        "water_velocity",
+        ("time", "bar", "xyz"),
+        "m s-1",
+        "velocity of the water at the middle of every bar, waves and shelter included",
+    ),
     Field(
         "water_force",
         ("time", "knot", "xyz"),

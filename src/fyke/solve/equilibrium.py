@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free, water_load
+from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import State, System
 from .linear import Factorizer, Pattern, Solve, factorizer
@@ -67,12 +68,15 @@ class Equilibrium:
 
     def __init__(self, system: System, start: State, linear: Factorizer | None) -> None:
         self.system, self.el = system, system.elements
+        self.surroundings, self.time = Surroundings(system), start.time
+        self.surroundings.renew(start.position, start.time)
         self.pattern = Pattern.of(self.el)
         self.linear = linear or factorizer(self.pattern)
         # About the net's middle, coordinates are smallest and so is their rounding.
         self.origin = start.position.mean(axis=0)
         self.x = start.position - self.origin
-        self.u = system.current.velocity(start.position, start.time)
+        self._still = np.zeros_like(self.x)
+        self._find_water()
         self.b = Work.of(len(self.x), len(self.el.knot_a), self.pattern)
         self.iterations = self.factorizations = 0
         self.residual, self.worst = self.true_residual()
@@ -84,8 +88,14 @@ class Equilibrium:
         size = float(np.abs(self.x).max(initial=0.0))
         return ROUNDING * float(np.finfo(float).eps) * float(self.el.stiffness.max(initial=0.0)) * size
 
+    def _find_water(self) -> None:
+        """Find elements and velocity of the water (n, 3) m/s at the present positions."""
+        self.el, self.u = self.surroundings.at(self.x + self.origin, self._still, self.time)
+
     def true_residual(self) -> tuple[float, int]:
         """Largest unbalanced force (N) on a free knot, and that knot."""
+        if not self.surroundings.steady:
+            self._find_water()
         b, el = self.b, self.el
         bar_geometry(self.x, el, b.t, b.length)
         elastic(b.length - el.rest_length, el, b.f, b.k)

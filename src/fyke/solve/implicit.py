@@ -17,12 +17,13 @@ from numpy.typing import NDArray
 
 from ..forces.bars import bar_geometry, elastic, water_load
 from ..forces.inertia import invert_masses, mass_matrices
+from ..forces.surroundings import Surroundings
 from ..forces.total import total_force, work_arrays
 from ..system.system import State, System
 from .equilibrium import typical_tension
 from .linear import SingularMatrixError
 from .step_newton import Ahead, StepNewton
-from .stepper import Count, Memory, Status, fluid_velocity
+from .stepper import Count, Memory, Status
 
 Array = NDArray[np.float64]
 
@@ -126,13 +127,14 @@ class ImplicitRun:
         self.method, self.system, self.state = method, system, state
         self.count = Count()
         el = self.el = system.elements
+        self.surroundings = Surroundings(system)
+        self.surroundings.renew(state.position, state.time)
         self.x, self.v, self.time = state.position.copy(), state.velocity.copy(), state.time
-        self.u = fluid_velocity(system, state)
         self.a, f, load = self._beginning()
         prestress = float(np.maximum(f, 0.0).sum()) / max(len(f), 1)
         self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, TINY)
         mu = (SMOOTHING * self.tension_scale) ** 2
-        self.newton = StepNewton(el, self.u, mu, self.tension_scale)
+        self.newton = StepNewton(self.surroundings, self.u, mu, self.tension_scale)
         self.linear_solver = self.newton.linear.name
         self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * mu))
         self.w = self.T - f
@@ -150,7 +152,8 @@ class ImplicitRun:
 
     def _beginning(self) -> tuple[Array, Array, Array]:
         """Acceleration (n, 3), law (m,) and load (n, 3) of the state at the beginning."""
-        el, bars = self.el, self.system.net.bar_count
+        el, self.u = self.surroundings.at(self.x, self.v, self.time)
+        bars = self.system.net.bar_count
         rel, g = work_arrays(len(self.x))
         force, a, load, inverse = (np.zeros((len(self.x), width)) for width in (3, 3, 3, 6))
         total_force(self.x, self.v, self.u, el, rel, g, force)
@@ -251,7 +254,12 @@ class ImplicitRun:
         newton = self.newton
         # The last accelerations are no guess: where bars have just snapped they are large and gone.
         newton.begin(
-            self.method.ahead(h, self._past(h)), self.T > self.w, np.zeros_like(self.x), self.T, self.w
+            self.method.ahead(h, self._past(h)),
+            self.time + h,
+            self.T > self.w,
+            np.zeros_like(self.x),
+            self.T,
+            self.w,
         )
         begun = newton.evaluations, newton.factorizations
         try:

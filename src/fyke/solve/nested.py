@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..forces.surroundings import Surroundings
 from ..netting.grouping import Grid, carry, grid_of
 from ..system.grouped import grouped
 from ..system.system import State, System
@@ -67,7 +68,7 @@ def nested_start(system: System, begin: State, tolerance: float, solve: Solve) -
 def _loads(system: System, position: Array) -> Array:
     """Weight and an estimate of the water's force on every knot, (n, 3) N: bars square to the current."""
     el = system.elements
-    u = system.current.velocity(position, 0.0)
+    u = Surroundings(system).velocity(position, 0.0)
     area = el.knot_drag.copy()
     np.add.at(area, el.knot_a, el.normal_drag * el.rest_length)
     np.add.at(area, el.knot_b, el.normal_drag * el.rest_length)

@@ -23,8 +23,8 @@ class Result:
     """Frames of a solve, stacked; one frame for statics, k for dynamics.
 
     Shapes and units are those of Frame with the time axis put in front: time (k,) s, position (k, n, 3) m,
-    velocity (k, n, 3) m/s, tension (k, m) N, bar_drag and bar_lift (k, m) N, water_force (k, n, 3) N,
-    hydrodynamic_force and support_reaction (k, 3) N, kinetic_energy (k,) J, unbalanced_force (k,) N.
+    velocity (k, n, 3) m/s, tension (k, m) N, bar_drag and bar_lift (k, m) N, water_velocity (k, m, 3) m/s,
+    water_force (k, n, 3) N, hydrodynamic_force and support_reaction (k, 3) N, kinetic_energy (k,) J, unbalanced_force (k,) N.
     weight_in_water: weight less buoyancy of the whole net, (N, positive sinks); case_text: the case file as read,
     "" for a net made in Python.
     """
@@ -38,6 +38,7 @@ class Result:
     tension: Array
     bar_drag: Array
     bar_lift: Array
+    water_velocity: Array
     water_force: Array
     hydrodynamic_force: Array
     support_reaction: Array

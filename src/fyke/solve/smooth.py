@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from ..forces.compiled import OPTIONS
-from ..forces.drag import bar_water_tangent
+from ..forces.drag import bar_water_tangents, present_knot_drag, present_law
 
 
 @njit(**OPTIONS)
@@ -41,35 +41,28 @@ def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, symmetric, sta
     """
     data[:] = 0.0
     turn, own, other = np.zeros((3, 3)), np.zeros((3, 3)), np.zeros((3, 3))
-    w = np.zeros(3)
+    press, w = np.zeros((3, 3)), np.zeros(3)
     for e in range(along.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
         for q in range(3):
             w[q] = 0.5 * (rel[a, q] + rel[b, q])
         t0 = t[e]
-        bar_water_tangent(w, t0, el.normal_drag[e], el.tangential_drag[e], turn)
+        # The velocity of the bar's middle is half of each end's.
+        bar_water_tangents(w, t0, present_law(w, t0, e, el), 0.5 * c1 * length[e], turn, press)
         for q in range(3):
             for p in range(3):
                 # Blocks (a, a) and (b, b) are symmetric by themselves, (b, a) and (a, b) mirror each other.
                 own[p, q] = 0.5 * (turn[p, q] + turn[q, p]) if symmetric else turn[p, q]
                 other[p, q] = 0.5 * (turn[p, q] - turn[q, p]) if symmetric else turn[p, q]
-        s = w[0] * t0[0] + w[1] * t0[1] + w[2] * t0[2]
-        n0, n1, n2 = w[0] - s * t0[0], w[1] - s * t0[1], w[2] - s * t0[2]
-        size = np.sqrt(n0 * n0 + n1 * n1 + n2 * n2)
-        inverse = 1.0 / size if size > 0.0 else 0.0
-        n = (n0, n1, n2)
-        cn = 0.5 * c1 * el.normal_drag[e] * length[e]
-        ct = c1 * el.tangential_drag[e] * length[e] * abs(s)
         across = max(T[e], 0.0) / length[e]
         aa, ba, ab, bb = start[e, 0], start[e, 1], start[e, 2], start[e, 3]
         sa, sb = stride[e, 0], stride[e, 1]
         for q in range(3):
             for p in range(3):
                 identity = 1.0 if p == q else 0.0
-                tt = t0[p] * t0[q]
-                k = c0 * ((along[e] - across) * tt + across * identity)
+                k = c0 * ((along[e] - across) * t0[p] * t0[q] + across * identity)
                 d, g = c0 * own[p, q], c0 * other[p, q]
-                c = cn * (size * (identity - tt) + n[p] * n[q] * inverse) + ct * tt
+                c = 0.5 * (press[p, q] + press[q, p]) if symmetric else press[p, q]
                 if aa >= 0:
                     data[aa + q * sa + p] += c + k + d
                 if ba >= 0:
@@ -95,13 +88,15 @@ def _add_knots(rel, el, c1, cm, mass, diagonal, data):
         block[0, 2] = block[2, 0] = m[4]
         block[1, 2] = block[2, 1] = m[5]
         w = rel[i]
-        size = np.sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2])
+        square = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]
+        size = np.sqrt(square)
         inverse = 1.0 / size if size > 0.0 else 0.0
-        c = c1 * el.knot_drag[i]
+        drag, slope = present_knot_drag(square, i, el)
+        both = drag * inverse + 2.0 * slope * size
         for q in range(3):
             for p in range(3):
-                drag = w[p] * w[q] * inverse + (size if p == q else 0.0)
-                data[place + q * step + p] += cm * block[p, q] + c * drag
+                pressed = w[p] * w[q] * both + (size * drag if p == q else 0.0)
+                data[place + q * step + p] += cm * block[p, q] + c1 * pressed
 
 
 @njit(**OPTIONS)

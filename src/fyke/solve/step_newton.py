@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..forces.bars import bar_geometry, elastic, water_load
 from ..forces.inertia import mass_matrices
-from ..system.elements import Elements
+from ..forces.surroundings import Surroundings
 from .central_path import bar_changes, second_order
 from .linear import SMALL, Pattern, Solve, factorizer
 from .smooth import assemble_step, smooth_bars, step_right_side
@@ -47,15 +47,17 @@ class Ahead(NamedTuple):
 class StepNewton:
     """Equations of the steps of n knots and m bars.
 
-    x, v, a: (n, 3) and T, w: (m,) N, the present guess, and the solution in the end. u: (n, 3) m/s, the water;
+    x, v, a: (n, 3) and T, w: (m,) N, the present guess, and the solution in the end. u: (n, 3) m/s, the water, which is
+    found anew for every guess where it changes;
     mu: smoothing (N2), see solve.smooth; scale: typical tension (N).
     """
 
     ahead: Ahead
     damps: Mask
 
-    def __init__(self, el: Elements, u: Array, mu: float, scale: float) -> None:
-        self.el, self.u, self.mu, self.scale = el, u, mu, scale
+    def __init__(self, surroundings: Surroundings, u: Array, mu: float, scale: float) -> None:
+        self.surroundings, self.u, self.mu, self.scale = surroundings, u, mu, scale
+        el = self.el = surroundings.system.elements
         n, m = len(el.free), len(el.knot_a)
         self.pattern = Pattern.of(el)
         self.symmetric = self.pattern.size > SMALL
@@ -69,11 +71,12 @@ class StepNewton:
         self.x, self.v, self.rel, self.a, self.T, self.w = u, u, u, z((n, 3)), z(m), z(m)
         self.evaluations = self.factorizations = 0
 
-    def begin(self, ahead: Ahead, damps: Mask, a: Array, T: Array, w: Array) -> None:
-        """Take up a step from a guess; damps: (m,) bars whose twine damps in it."""
+    def begin(self, ahead: Ahead, time: float, damps: Mask, a: Array, T: Array, w: Array) -> None:
+        """Take up a step that ends at a time (s) from a guess; damps: (m,) bars whose twine damps in it."""
         # A step depends on the guess alone, so that a run may be taken up again at any.
         self.linear.renew()
-        self.ahead, self.damps = ahead, damps
+        self.ahead, self.damps, self.time = ahead, damps, time
+        self.surroundings.renew(ahead.x0, time)
         self.a[:], self.T[:], self.w[:] = a, T, w
         self._move()
 
@@ -123,6 +126,8 @@ class StepNewton:
 
     def _residual(self) -> None:
         """Geometry, law, loads and masses of the present guess; residuals of the bars' equations (N)."""
+        if not self.surroundings.steady:
+            self.el, self.u = self.surroundings.at(self.x, self.v, self.time)
         el = self.el
         bar_geometry(self.x, el, self.t, self.length)
         np.subtract(self.length, el.rest_length, out=self.de)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..forces.bars import bar_geometry, elastic
 from ..forces.inertia import invert_masses, largest_frequency, mass_matrices
+from ..forces.surroundings import Surroundings
 from ..system.system import State, System
 
 Array = NDArray[np.float64]
@@ -92,5 +93,5 @@ def highest_frequency(system: System, state: State) -> float:
 
 
 def fluid_velocity(system: System, state: State) -> Array:
-    """Velocity of the water at the knots, (n, 3) m/s."""
-    return system.current.velocity(state.position, state.time)
+    """Velocity of the water at the knots, (n, 3) m/s, without shelter."""
+    return Surroundings(system).at(state.position, state.velocity, state.time)[1]

@@ -30,14 +30,16 @@ from ..forces.around import (
     bars_around,
     extent,
     knots_in_order,
+    renew,
     renumbered,
 )
 from ..forces.compiled import OPTIONS
-from ..forces.gather import FAR, SPEED, WORK_ROWS, block_force, share_laws
+from ..forces.gather import FAR, LAW_ROWS, SPEED, WORK_ROWS, block_force, share_laws
 from ..forces.inertia import block_inverse_masses
 from ..forces.team import LINE, meet, run_team, threads_for
 from ..system.system import State, System
-from .stepper import Count, Memory, Status, fluid_velocity, highest_frequency
+from .held_water import HeldWater
+from .stepper import Count, Memory, Status, highest_frequency
 
 Array = NDArray[np.float64]
 
@@ -88,7 +90,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
     """Take so many steps of h (s) as one of a team; x and v at the same time before and after.
 
     fields: as forces.around lays them out; x begins in row 0 and ends in row 0 after an odd number of steps, else in
-    row HERE_ROWS; uniform: the water has the same velocity everywhere; law: (2, m + 1); inverse: flat
+    row HERE_ROWS; uniform: the water has the same velocity everywhere; law: (LAW_ROWS, m + 1); inverse: flat
     (blocks, 6, BLOCK); rates: (2, team x LINE).
     """
     blocks = around.first.shape[0] - 1
@@ -98,8 +100,8 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
     for step in range(steps + 1):
         old = HERE_ROWS * (step & 1)
         new = HERE_ROWS - old
-        if not around.linear:
-            share_laws(rank, team, old, fields, el, around, law)
+        if not (around.linear and around.plain):
+            share_laws(rank, team, old, uniform, fields, el, around, law)
             if not meet(signal, team):
                 return
         renew = lag <= 0
@@ -108,7 +110,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
         for block in range(first, last):
             if renew:
                 fastest = max(fastest, block_inverse_masses(block, old, fields, around, near, g, inverse))
-            block_force(block, old, uniform, fields, around, law, near, g)
+            block_force(block, old, uniform, fields, el, around, law, near, g)
             _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, fields, g)
         rates[step & 1, rank * LINE] = fastest
         settle()
@@ -149,11 +151,13 @@ class SymplecticRun:
         self.method, self.system, self.state = method, system, state
         self.count = Count()
         self._order = knots_in_order(system.elements, system.net.positions)
+        self.water = HeldWater(system, state)
         self._elements = el = renumbered(system.elements, self._order)
-        self.around = around = bars_around(el)
+        self.around = around = bars_around(el, renewable=not self.water.steady)
         self.threads = threads_for(system.net.bar_count)
         self.steps_per_call = int(np.clip(WORK_PER_CALL // max(system.net.bar_count, 1), *STEPS_PER_CALL))
-        self._law = np.zeros((2, 1 if el.linear else system.net.bar_count + 1))
+        looked_up = 1 if el.linear and el.plain else system.net.bar_count + 1
+        self._law = np.zeros((LAW_ROWS, looked_up))
         self._inverse = np.zeros(around.blocks * 6 * BLOCK)
         self._fields = around.fields()
         self.step = self._bound(state)
@@ -166,12 +170,15 @@ class SymplecticRun:
     def advance(self, end: float) -> Status:
         """Go on towards the time end (s); state is left untouched on failure."""
         old = self.state
-        left = end - old.time
         self.step = self._bound(old)
+        present, flow, until = self.water.ahead(old, end, self.step)
+        left = until - old.time
+        if not self.water.steady:
+            self._elements = renumbered(present, self._order)
+            self.around = renew(self.around, self._elements)
         wanted = int(np.ceil(left / self.step * (1.0 - 1e-12)))
         steps = min(wanted, self.steps_per_call)
         h = left / wanted
-        flow = fluid_velocity(self.system, old)
         for row, values in ((0, old.position), (3, old.velocity), (WATER, flow)):
             self.write(row, values)
         self.leap(h, steps, bool(np.all(flow == flow[0])))
@@ -181,7 +188,7 @@ class SymplecticRun:
         if not (np.all(np.isfinite(x)) and np.all(np.isfinite(v))):
             return "not_finite"
         self.count.steps += steps
-        self.state = State(end if steps == wanted else old.time + steps * h, x, v)
+        self.state = State(until if steps == wanted else old.time + steps * h, x, v)
         return "ok"
 
     def write(self, row: int, values: Array) -> None:
@@ -203,8 +210,13 @@ class SymplecticRun:
     def memory(self) -> Memory:
         """Return what the next steps depend on."""
         s = self.state
-        return {"time": np.array(s.time), "position": s.position, "velocity": s.velocity}
+        return {
+            "time": np.array(s.time),
+            "position": s.position,
+            "velocity": s.velocity,
+        } | self.water.memory()
 
     def restore(self, memory: Memory) -> None:
         """Go on from there."""
         self.state = State(float(memory["time"]), memory["position"], memory["velocity"])
+        self.water.restore(memory)

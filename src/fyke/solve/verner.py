@@ -21,6 +21,7 @@ from ..forces.compiled import OPTIONS
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.total import total_force, work_arrays
 from ..system.system import State, System
+from .held_water import HeldWater
 from .stepper import Count, Memory, Status, fluid_velocity, highest_frequency
 
 Array = NDArray[np.float64]
@@ -217,6 +218,7 @@ class VernerRun:
         self.method, self.system, self.state = method, system, state
         self.count = Count()
         el = system.elements
+        self.water = HeldWater(system, state)
         n = system.net.knot_count
         rel, g = work_arrays(n)
         self._work = (rel, g, *(np.zeros(s) for s in ((n, 3), (n, 6), (n, 3), (n, 3), (n, 3), (n, 3))))
@@ -235,14 +237,16 @@ class VernerRun:
         """Go on towards the time end (s); state is left untouched on failure."""
         old = self.state
         x, v = old.position.copy(), old.velocity.copy()
-        clock = np.array([old.time, end, self.step, self._bound(old)])
+        bound = self._bound(old)
+        present, flow, until = self.water.ahead(old, end, bound)
+        clock = np.array([old.time, until, self.step, bound])
         accepted, rejected, evaluations, fault = advance(
             x,
             v,
             clock,
             STEPS_PER_CALL,
-            fluid_velocity(self.system, old),
-            self.system.elements,
+            flow,
+            present,
             self._work,
             self._stages,
             _A,
@@ -269,9 +273,10 @@ class VernerRun:
             "position": s.position,
             "velocity": s.velocity,
             "step": np.array(self.step),
-        }
+        } | self.water.memory()
 
     def restore(self, memory: Memory) -> None:
         """Go on from there."""
         self.state = State(float(memory["time"]), memory["position"], memory["velocity"])
         self.step = float(memory["step"])
+        self.water.restore(memory)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,38 +14,17 @@ from ..netting.panel import panel
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
+from ..water.laws.bars import ConstantBar
+from ..water.laws.knots import ConstantKnot
+from .curves import INTERVALS, NO_ANGLES, ROW, bar_curves, knot_curves
 from .elements import Elements
-from .system import System
+from .laws import Coefficients, Water
+from .system import Displaced, System, Waves
 
 Array = NDArray[np.float64]
 
 # Strain at which the secant of an elastic law stands for its stiffness where one number is needed.
 REFERENCE_STRAIN = 0.01
-
-
-@dataclass(frozen=True)
-class Water:
-    """Density (kg/m3), kinematic viscosity (m2/s), gravity (m/s2)."""
-
-    density: float = 1000.0
-    kinematic_viscosity: float = 1.0e-6
-    gravity: float = 9.81
-
-
-@dataclass(frozen=True)
-class Coefficients:
-    """Constant drag and added-mass coefficients, all without unit.
-
-    bar_normal, bar_tangential: on the area d x current length (both; no pi); knot: on pi/4 d_k^2;
-    added_mass_bar: on the displaced volume, normal to the bar only; added_mass_knot: on the displaced volume.
-    Defaults: Bessonneau & Marichal 1998 for the bars, potential flow for the added masses (cylinder 1, sphere 1/2).
-    """
-
-    bar_normal: float = 1.2
-    bar_tangential: float = 0.1
-    knot: float = 1.0
-    added_mass_bar: float = 1.0
-    added_mass_knot: float = 0.5
 
 
 def build_net(case: Case) -> Net:
@@ -79,12 +59,12 @@ def build_system(net: Net, case: Case) -> System:
         current=case.current.velocity,
         water=Water(water.density, water.kinematic_viscosity, water.gravity),
         coefficients=Coefficients(
-            bar_normal=case.drag.bars.normal,
-            bar_tangential=case.drag.bars.tangential,
-            knot=case.drag.knots.drag,
+            bars=ConstantBar(case.drag.bars.normal, case.drag.bars.tangential),
+            knots=ConstantKnot(case.drag.knots.drag),
             added_mass_bar=case.added_mass.bars,
             added_mass_knot=case.added_mass.knots,
         ),
+        surface=True,
     )
     return replace(system, case_text=case.text)
 
@@ -95,13 +75,17 @@ def make_system(
     current: Current | tuple[float, float, float] = (0.0, 0.0, 0.0),
     water: Water | None = None,
     coefficients: Coefficients | None = None,
+    waves: Waves | None = None,
+    surface: bool = False,
 ) -> System:
-    """Freeze a net in water: masses, weights and drag coefficients of every knot and bar."""
+    """Freeze a net in water: masses, weights and drag coefficients of every knot and bar.
+
+    surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere.
+    """
     w = water or Water()
     c = coefficients or Coefficients()
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
-    diameter = net.bar_diameter
     volume = area * net.rest_length
     knot_volume = np.pi / 6.0 * net.knot_diameter**3
     mass = _to_knots(net, density * volume) + net.knot_density * knot_volume
@@ -118,21 +102,69 @@ def make_system(
         rest_length=net.rest_length.copy(),
         stiffness=stiffness,
         damping_time=damping,
-        normal_drag=0.25 * w.density * c.bar_normal * diameter,
-        tangential_drag=0.25 * w.density * c.bar_tangential * diameter,
         bar_added_mass=0.5 * c.added_mass_bar * w.density * volume,
         law_rows=rows,
         law_first=first,
         law_end=end,
         linear=linear,
         damped=bool(np.any(damping > 0.0)),
-        knot_drag=0.5 * w.density * c.knot * np.pi / 4.0 * net.knot_diameter**2,
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
+        **_drag(net, w, c),
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
-    return System(net, flow, elements, float(w.gravity * sinking.sum()), _sources(net, c, damping))
+    return System(
+        net,
+        flow,
+        elements,
+        float(w.gravity * sinking.sum()),
+        water=w,
+        coefficients=c,
+        displaced=Displaced(0.5 * w.density * volume, w.density * knot_volume),
+        waves=waves,
+        surface=surface or waves is not None,
+        sources=_sources(net, c, damping),
+    )
+
+
+def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
+    """Fields of Elements that say how the water drags."""
+    bars, knots = c.bars, c.knots
+    scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
+    zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
+    fields: dict[str, Any] = {"bar_reynolds": net.bar_diameter / w.kinematic_viscosity}
+    if isinstance(bars, ConstantBar) and isinstance(knots, ConstantKnot):
+        return fields | {
+            "plain": True,
+            "normal_drag": scale * bars.normal,
+            "tangential_drag": scale * bars.tangential,
+            "knot_drag": disc * knots.drag,
+            "bar_reference": np.full(len(scale), bars.normal),
+            "bar_curve": zeros[0],
+            "bar_curves": np.zeros((1, INTERVALS, ROW)),
+            "friction": 0.0,
+            "angles": NO_ANGLES,
+            "knot_curve": zeros[1],
+            "knot_curves": np.zeros((1, INTERVALS, 5)),
+        }
+    thickness, bar_curve = np.unique(net.bar_diameter, return_inverse=True)
+    curves = bar_curves(bars, thickness / w.kinematic_viscosity)
+    breadth, knot_curve = np.unique(net.knot_diameter, return_inverse=True)
+    reference, rows = knot_curves(knots, breadth / w.kinematic_viscosity)
+    return fields | {
+        "plain": False,
+        "normal_drag": scale * curves.reference[bar_curve],
+        "tangential_drag": scale * curves.along[bar_curve],
+        "knot_drag": disc * reference[knot_curve],
+        "bar_reference": curves.reference[bar_curve],
+        "bar_curve": bar_curve.astype(np.int32),
+        "bar_curves": curves.rows,
+        "friction": curves.friction,
+        "angles": curves.angles,
+        "knot_curve": knot_curve.astype(np.int32),
+        "knot_curves": rows,
+    }
 
 
 def ringing(net: Net, stiffness: Array, knot_mass: Array) -> Array:
@@ -157,10 +189,7 @@ def _retardation(net: Net, frequency: Array) -> Array:
 def _sources(net: Net, c: Coefficients, damping: Array) -> tuple[str, ...]:
     """One line for each law: what it says and where it comes from."""
     return (
-        f"bar drag: constant C_n = {c.bar_normal:g}, C_t = {c.bar_tangential:g} on d x length, normal and tangential "
-        "parts apart (split: Choo & Casarella 1971, J. Hydronautics 5(4); values 1.2, 0.1: Bessonneau & Marichal 1998, "
-        "Ocean Eng. 25(7))",
-        f"knot drag: constant C_D = {c.knot:g} of a sphere on pi d^2/4",
+        *_drag_sources(c),
         f"added mass: C_a = {c.added_mass_bar:g} across a bar, {c.added_mass_knot:g} of a knot (potential flow: "
         "cylinder 1, sphere 1/2)",
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
@@ -169,6 +198,25 @@ def _sources(net: Net, c: Coefficients, damping: Array) -> tuple[str, ...]:
             for i, t in enumerate(net.twines)
         ),
     )
+
+
+def _drag_sources(c: Coefficients) -> tuple[str, str]:
+    """One line for the bars, one for the knots."""
+    bars, knots = c.bars, c.knots
+    if isinstance(bars, ConstantBar):
+        bar = (
+            f"constant C_n = {bars.normal:g}, C_t = {bars.tangential:g} on d x length, normal and tangential "
+            "parts apart (split: Choo & Casarella 1971, J. Hydronautics 5(4); values 1.2, 0.1: Bessonneau & "
+            "Marichal 1998, Ocean Eng. 25(7))"
+        )
+    else:
+        bar = f"{bars.title} ({bars.source})"
+    knot = (
+        f"constant C_D = {knots.drag:g} of a sphere on pi d^2/4"
+        if isinstance(knots, ConstantKnot)
+        else f"{knots.title} ({knots.source})"
+    )
+    return f"bar drag: {bar}", f"knot drag: {knot}"
 
 
 def _damping(twine: Twine, time: Array) -> str:

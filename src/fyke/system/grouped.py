@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from ..netting.grouping import Grid, carry, nearest
 from ..netting.net import Net
 from .elements import Elements
-from .system import System
+from .system import Displaced, System
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -55,9 +55,24 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         knot_mass=side**2 * el.knot_mass[knots],
         weight=side**2 * el.weight[knots],
         free=el.free[knots],
+        plain=el.plain,
+        bar_reynolds=el.bar_reynolds[bars],
+        bar_reference=el.bar_reference[bars],
+        bar_curve=el.bar_curve[bars],
+        bar_curves=el.bar_curves,
+        friction=el.friction,
+        angles=el.angles,
+        knot_curve=el.knot_curve[knots],
+        knot_curves=el.knot_curves,
     )
-    return System(
-        _net(net, fine, coarse, knots, bars, elements), system.current, elements, system.weight_in_water
+    displaced = Displaced(side * longer * system.displaced.bar[bars], side**2 * system.displaced.knot[knots])
+    return replace(
+        system,
+        net=_net(net, fine, coarse, knots, bars, elements),
+        elements=elements,
+        displaced=displaced,
+        sources=(),
+        case_text="",
     )
 
 

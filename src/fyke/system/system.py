@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,8 +11,16 @@ from numpy.typing import NDArray
 from ..netting.net import Net
 from ..water.current import Current
 from .elements import Elements
+from .laws import Coefficients, Water
 
 Array = NDArray[np.float64]
+
+
+class Waves(Protocol):
+    """What waves must offer."""
+
+    def motion(self, points: Array, time: float) -> Any:
+        """Return velocity, acceleration and elevation."""
 
 
 @dataclass(frozen=True)
@@ -29,17 +38,31 @@ class State:
 
 
 @dataclass(frozen=True)
-class System:
-    """A net in water, frozen: the net, the current and the arrays of the kernels.
+class Displaced:
+    """Mass of the water that a net displaces: bar: (m,) kg, half of a bar, for each end; knot: (n,) kg, of a knot."""
 
-    weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; sources: one line for each
-    law, with what it says and where it comes from; case_text: the case file behind it, "" when made in Python.
+    bar: Array
+    knot: Array
+
+
+@dataclass(frozen=True)
+class System:
+    """A net in water, frozen: the net, the water around it and the arrays of the kernels.
+
+    weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; surface: what rises above the
+    surface is dry, else water is everywhere; sources: one line for each law, with what it says and where it comes
+    from; case_text: the case file behind it, "" when made in Python.
     """
 
     net: Net
     current: Current
     elements: Elements
     weight_in_water: float
+    water: Water
+    coefficients: Coefficients
+    displaced: Displaced
+    waves: Waves | None = None
+    surface: bool = False
     sources: tuple[str, ...] = ()
     case_text: str = ""
 

@@ -1,0 +1,149 @@
+"""The water at the knots of a net at one moment, and the net's elements as they are in it.
+
+Still kernels know two things of the water: its velocity at the knots, and Elements. Where currents vary, waves pass or
+the net rises above the surface, both are worked out anew for a shape and a time:
+    velocity      shelter x current + waves;
+    wetness       part of a bar or knot under the surface, which drag, added mass and buoyancy are multiplied by;
+    added mass    by the angle between bar and flow, where its law knows one;
+    fluid inertia rho V a + C_a rho V (a - (a.t) t) of every bar and (1 + C_a) rho V a of every knot in accelerating
+                  water, added to the weight (Morison's equation of a moving body, whose own -C_a rho V dv/dt is in its
+                  mass).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from ..system.elements import Elements
+from ..system.system import Displaced, System
+from .compiled import OPTIONS
+from .total import TINY_LENGTH
+
+Array = NDArray[np.float64]
+
+
+@njit(**OPTIONS)
+def _immersed(depth, radius):
+    """Integral over depth (m) of the part of a round body of this radius (m) that is under water, taken as a ramp."""
+    if depth >= radius:
+        return depth
+    return (depth + radius) ** 2 / (4.0 * radius) if depth > -radius else 0.0
+
+
+@njit(**OPTIONS)
+def wet_parts(z, elevation, el, bar_radius, knot_radius, bars, knots):
+    """Part under water of every bar into bars (m,) and of every knot into knots (n,).
+
+    z, elevation: (n,) m, heights of the knots and of the surface above them; a bar is the mean along its length.
+    """
+    for i in range(z.shape[0]):
+        depth, r = elevation[i] - z[i], max(knot_radius[i], TINY_LENGTH)
+        knots[i] = min(max(0.5 * (depth + r) / r, 0.0), 1.0)
+    for e in range(bar_radius.shape[0]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        low, high = elevation[a] - z[a], elevation[b] - z[b]
+        r = bar_radius[e]
+        if abs(high - low) > 1e-6 * r:
+            bars[e] = (_immersed(high, r) - _immersed(low, r)) / (high - low)
+        else:
+            bars[e] = min(max(0.5 * (low + r) / r, 0.0), 1.0)
+
+
+@njit(**OPTIONS)
+def add_fluid_inertia(x, acceleration, el, bar_displaced, knot_inertia, out):
+    """Add the force of accelerating water to out (n, 3) N.
+
+    acceleration: (n, 3) m/s2 of the water at the knots; bar_displaced: (m,) kg, half of a bar; knot_inertia: (n,) kg.
+    """
+    for i in range(x.shape[0]):
+        for q in range(3):
+            out[i, q] += knot_inertia[i] * acceleration[i, q]
+    for e in range(bar_displaced.shape[0]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        dx, dy, dz = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2]
+        p = 0.5 * (acceleration[a, 0] + acceleration[b, 0])
+        q = 0.5 * (acceleration[a, 1] + acceleration[b, 1])
+        r = 0.5 * (acceleration[a, 2] + acceleration[b, 2])
+        whole = bar_displaced[e] + el.bar_added_mass[e]
+        along = el.bar_added_mass[e] * (p * dx + q * dy + r * dz)
+        along /= max(dx * dx + dy * dy + dz * dz, TINY_LENGTH)
+        for i in (a, b):
+            out[i, 0] += whole * p - along * dx
+            out[i, 1] += whole * q - along * dy
+            out[i, 2] += whole * r - along * dz
+
+
+class Surroundings:
+    """The water around one net on its way; shelter is that of the shape of the last renewal."""
+
+    def __init__(self, system: System) -> None:
+        self.system = system
+        c, net = system.coefficients, system.net
+        self._radius = 0.5 * net.bar_diameter, 0.5 * net.knot_diameter
+        self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
+        self._by_angle = not isinstance(c.added_mass_bar, int | float)
+
+    @property
+    def steady(self) -> bool:
+        """Whether neither water nor elements change with time or shape."""
+        s = self.system
+        return s.current.steady and s.current.uniform and not (s.surface or s.waves or self._by_angle)
+
+    def renew(self, x: Array, time: float) -> None:
+        """Find the shelter of positions x (n, 3) m."""
+
+    def velocity(self, x: Array, time: float) -> Array:
+        """Velocity of the current at knots x (n, 3) m, sheltered, waves left out, (n, 3) m/s."""
+        return self.system.current.velocity(x, time)
+
+    def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
+        """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3)."""
+        system, u = self.system, self.velocity(x, time)
+        waves = None if system.waves is None else system.waves.motion(x, time)
+        if waves is not None:
+            u = u + waves.velocity
+        el = self._added_by_angle(x, u - v) if self._by_angle else system.elements
+        displaced = system.displaced
+        if system.surface:
+            el, displaced = self._wetted(el, x, np.zeros(len(x)) if waves is None else waves.elevation)
+        if waves is not None:
+            weight = el.weight.copy()
+            knot_inertia = (1.0 + system.coefficients.added_mass_knot) * displaced.knot
+            add_fluid_inertia(x, waves.acceleration, el, displaced.bar, knot_inertia, weight)
+            el = el._replace(weight=weight)
+        return el, u
+
+    def _added_by_angle(self, x: Array, rel: Array) -> Elements:
+        """Added mass of the bars by their angle to the water that passes them; rel: (n, 3) m/s."""
+        el = self.system.elements
+        a, b = el.knot_a, el.knot_b
+        t, w = x[b] - x[a], 0.5 * (rel[a] + rel[b])
+        angle = np.arctan2(np.linalg.norm(np.cross(w, t), axis=1), np.abs(np.einsum("eq,eq->e", w, t)))
+        law = self.system.coefficients.added_mass_bar
+        return el._replace(bar_added_mass=law.coefficient(angle) * self.system.displaced.bar)
+
+    def _wetted(self, el: Elements, x: Array, elevation: Array) -> tuple[Elements, Displaced]:
+        """Drag, added mass and buoyancy of what is under water, and the water that it displaces."""
+        system, whole = self.system, self.system.displaced
+        if float((x[:, 2] - elevation).max(initial=-np.inf)) < -self._reach:
+            return el, whole
+        bars, knots = np.empty(len(el.rest_length)), np.empty(len(x))
+        wet_parts(np.ascontiguousarray(x[:, 2]), elevation, el, *self._radius, bars, knots)
+        displaced = Displaced(bars * whole.bar, knots * whole.knot)
+        lost = whole.knot - displaced.knot
+        added = system.coefficients.added_mass_knot * lost
+        for end in (el.knot_a, el.knot_b):
+            np.add.at(lost, end, whole.bar - displaced.bar)
+        weight = el.weight.copy()
+        weight[:, 2] -= system.water.gravity * lost
+        wet = el._replace(
+            normal_drag=bars * el.normal_drag,
+            tangential_drag=bars * el.tangential_drag,
+            bar_added_mass=bars * el.bar_added_mass,
+            knot_drag=knots * el.knot_drag,
+            knot_mass=el.knot_mass - added,
+            weight=weight,
+        )
+        return wet, displaced

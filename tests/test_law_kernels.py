@@ -1,0 +1,176 @@
+"""Laws of drag in the kernels: against the laws themselves, their tangents against differences, in every solver."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fyke
+from fyke.forces.bars import assemble, bar_geometry, water_load
+from fyke.forces.drag import bar_water_force, bar_water_tangents, present_knot_drag, present_law
+from fyke.forces.total import total_force, work_arrays
+from fyke.solve.linear import Pattern
+from fyke.solve.smooth import assemble_step
+from fyke.water.laws import LAWS, AngleTable, BarTable, bars, knots
+
+VISCOSITY, DIAMETER, KNOT, LENGTH = 1e-6, 1.5e-3, 3.5e-3, 0.03
+TABLES = {
+    "table": BarTable((10.0, 100.0, 1e4), (2.5, 1.6, 1.1), (0.3, 0.2, 0.05)),
+    "angle-table": AngleTable(
+        (10.0, 1000.0, 1e4),
+        (0.0, 0.5, 1.0, np.pi / 2.0),
+        ((0.1, 0.3, 0.8, 1.2), (0.05, 0.3, 0.7, 1.1), (0.05, 0.2, 0.7, 1.0)),
+        ((0.0, 0.1, 0.3, 0.0), (0.0, 0.2, 0.3, 0.0), (0.0, 0.2, 0.3, 0.0)),
+    ),
+}
+BARS = {name: TABLES.get(name) or law() for name, law in LAWS["bars"].items()}
+KNOTS = {name: law() for name, law in LAWS["knots"].items()}
+
+
+def flows(count=200, seed=1):
+    """Velocities of water past a bar from 1 mm/s to 3 m/s, and directions of the bar."""
+    rng = np.random.default_rng(seed)
+    for _ in range(count):
+        w, t = rng.normal(size=(2, 3))
+        yield w * 10.0 ** rng.uniform(-3.0, 0.5), t / np.linalg.norm(t)
+
+
+def one_bar(law):
+    twine = fyke.Twine("n", density=1140.0, diameter=DIAMETER, law=fyke.LinearLaw(1e9))
+    net = fyke.line(twine, np.array([[0.0, 0.0, 0.0], [0.0, 0.0, -LENGTH]]), LENGTH, fixed=(0,))
+    return fyke.make_system(net, coefficients=fyke.Coefficients(bars=law)).elements
+
+
+@pytest.mark.parametrize("name", BARS)
+def test_force_of_a_bar_is_that_of_its_law(name):
+    law, el = BARS[name], one_bar(BARS[name])
+    # Corners of a user's table and the joints of published pieces are a little rounder than they are said.
+    allowed = {"table": 1e-3, "takagi": 1e-5, "cifuentes-kim": 1e-5}.get(name, 1e-6)
+    for w, t in flows():
+        cn, ct, *_ = present_law(w, t, 0, el)
+        force = 2.0 * np.array(bar_water_force(*w, *t, cn * LENGTH, ct * LENGTH))
+        speed, along = np.linalg.norm(w), w @ t
+        n = w - along * t
+        across = np.linalg.norm(n)
+        normal, tangential = law.force(speed * DIAMETER / VISCOSITY, np.arctan2(across, abs(along)))
+        scale = 0.5 * 1000.0 * DIAMETER * LENGTH * speed**2
+        expected = scale * (normal * n / across + tangential * np.sign(along) * t)
+        assert np.abs(force - expected).max() < allowed * np.abs(expected).max()
+
+
+@pytest.mark.parametrize("name", BARS)
+def test_tangents_of_a_bar_against_differences(name):
+    el = one_bar(BARS[name])
+
+    def force(d, w):
+        length = np.linalg.norm(d)
+        cn, ct, *_ = present_law(w, d / length, 0, el)
+        return np.array(bar_water_force(*w, *(d / length), cn * length, ct * length))
+
+    for w, t in flows(100):
+        turn, press = np.empty((3, 3)), np.empty((3, 3))
+        bar_water_tangents(w, t, present_law(w, t, 0, el), LENGTH, turn, press)
+        d, h, hw = LENGTH * t, 1e-6 * LENGTH, 1e-6 * np.linalg.norm(w)
+        by_place = np.column_stack([(force(d + h * e, w) - force(d - h * e, w)) / (2 * h) for e in np.eye(3)])
+        by_speed = np.column_stack(
+            [(force(d, w + hw * e) - force(d, w - hw * e)) / (2 * hw) for e in np.eye(3)]
+        )
+        assert np.abs(turn - by_place).max() < 1e-7 * np.abs(by_place).max()
+        assert np.abs(press - by_speed).max() < 1e-7 * np.abs(by_speed).max()
+
+
+@pytest.mark.parametrize("name", KNOTS)
+def test_drag_of_a_knot_is_that_of_its_law(name, nylon):
+    law = KNOTS[name]
+    net = fyke.panel(
+        nylon, mesh="square", meshes=(1, 1), bar_length=LENGTH, size=(LENGTH, LENGTH), knot_diameter=KNOT
+    )
+    el = fyke.make_system(net, coefficients=fyke.Coefficients(knots=law, bars=bars.White())).elements
+    scale = 0.5 * 1000.0 * np.pi / 4.0 * KNOT**2
+    for speed in np.geomspace(1e-3, 3.0, 60):
+        drag, slope = present_knot_drag(speed**2, 0, el)
+        assert drag == pytest.approx(scale * float(law.coefficients(speed * KNOT / VISCOSITY)), rel=1e-5)
+        h = 1e-6 * speed**2
+        rise = present_knot_drag(speed**2 + h, 0, el)[0] - present_knot_drag(speed**2 - h, 0, el)[0]
+        assert slope * h == pytest.approx(0.5 * rise, abs=1e-9 * drag)
+
+
+def test_constant_coefficients_as_curves_are_the_same_force(nylon):
+    """A table of equal rows and plain constants: two ways through the kernels."""
+    net = fyke.panel(
+        nylon, mesh="diamond", meshes=(3, 2), bar_length=LENGTH, size=(0.127, 0.085), knot_diameter=KNOT
+    )
+    flat = BarTable((1.0, 1e6), (1.2, 1.2), (0.1, 0.1))
+    x = net.positions + np.random.default_rng(0).normal(scale=3e-3, size=net.positions.shape)
+    v = np.random.default_rng(1).normal(scale=0.3, size=x.shape)
+    found = []
+    for law in (bars.ConstantBar(1.2, 0.1), flat):
+        system = fyke.make_system(net, current=(0.5, 0.1, 0.0), coefficients=fyke.Coefficients(bars=law))
+        out = np.empty_like(x)
+        total_force(x, v, system.current.velocity(x, 0.0), system.elements, *work_arrays(len(x)), out)
+        found.append(out)
+    assert np.abs(found[1] - found[0]).max() < 1e-14 * np.abs(found[0]).max()
+
+
+@pytest.mark.parametrize("name", ["choo-casarella", "hoerner", "angle-table"])
+def test_assembled_tangents_against_differences(name, nylon):
+    """Position and velocity, bars and knots under laws, on a bent panel."""
+    net = fyke.panel(
+        nylon, mesh="diamond", meshes=(3, 2), bar_length=LENGTH, size=(0.127, 0.085), knot_diameter=KNOT
+    )
+    law = fyke.Coefficients(bars=BARS[name], knots=knots.CliftGauvin())
+    system = fyke.make_system(net, current=(0.5, 0.1, 0.0), coefficients=law)
+    el, m = system.elements, net.bar_count
+    x = net.positions + np.random.default_rng(0).normal(scale=3e-3, size=net.positions.shape)
+    v = np.random.default_rng(1).normal(scale=0.2, size=x.shape)
+    u = system.current.velocity(x, 0.0)
+
+    def load(x, v):
+        t, length, out = np.empty((m, 3)), np.empty(m), np.empty_like(x)
+        bar_geometry(x, el, t, length)
+        water_load(u - v, el, t, length, out)
+        return out
+
+    t, length = np.empty((m, 3)), np.empty(m)
+    bar_geometry(x, el, t, length)
+    pattern = Pattern.of(el)
+    data = np.empty(len(pattern.indices))
+    places = pattern.start, pattern.stride
+    by_place, by_speed = np.empty((2, 3 * len(pattern.free), 3 * len(pattern.free)))
+    for k, knot in enumerate(pattern.free):
+        for q in range(3):
+            step = np.zeros_like(x)
+            step[knot, q] = 1e-7
+            column = 3 * k + q
+            change = load(x + step, v) - load(x - step, v)
+            by_place[:, column] = -change[pattern.free].ravel() / 2e-7
+            change = load(x, v + step) - load(x, v - step)
+            by_speed[:, column] = -change[pattern.free].ravel() / 2e-7
+    assemble(np.zeros((m, 3, 3)), u - v, el, t, *places, data)
+    found = pattern.matrix(data).toarray()
+    assert np.abs(found - by_place).max() < 1e-6 * np.abs(by_place).max()
+    zero, mass = np.zeros(m), np.zeros((net.knot_count, 6))
+    assemble_step(
+        u - v, el, t, length, zero, zero, 0.0, 1.0, 0.0, mass, False, *places, pattern.diagonal, data
+    )
+    found = pattern.matrix(data).toarray()
+    assert np.abs(found - by_speed).max() < 1e-6 * np.abs(by_speed).max()
+
+
+@pytest.mark.parametrize("name", ["choo-casarella", "takagi", "hoerner", "angle-table"])
+def test_every_solver_comes_to_the_same_rest(name, nylon):
+    """Statics, implicit, leapfrog and Verner under one law: 1e-6 of the net's size."""
+    twine = fyke.Twine("n", density=1140.0, diameter=DIAMETER, law=fyke.LinearLaw(2e7), damping_time=2e-3)
+    net = fyke.panel(
+        twine, mesh="diamond", meshes=(3, 3), bar_length=LENGTH, size=(0.12, 0.12), knot_diameter=KNOT
+    )
+    law = fyke.Coefficients(bars=BARS[name], knots=knots.SchillerNaumann())
+    system = fyke.make_system(net, current=(0.5, 0.1, 0.0), coefficients=law)
+    still = fyke.solve_static(system)
+    assert still.outcome.ok
+    assert still.outcome.factorizations < 25
+    for stepper in (fyke.Implicit(), fyke.Symplectic(), fyke.Verner()):
+        settle = fyke.Settle(force=1e-6)
+        moved = fyke.simulate(system, duration=6.0, stepper=stepper, settle=settle)
+        assert moved.outcome.name == "converged", (stepper.name, moved.outcome.message)
+        assert np.abs(moved.position[-1] - still.position[-1]).max() < 2e-6
