@@ -7,7 +7,9 @@ import pytest
 
 import fyke
 from fyke.forces.bars import assemble, bar_geometry, water_load
-from fyke.forces.drag import bar_water_force, bar_water_tangents, present_knot_drag, present_law
+from fyke.forces.drag import bar_water_force, bar_water_tangents
+from fyke.forces.laws import coefficients_of_bars, coefficients_of_knots
+from fyke.forces.surroundings import Surroundings
 from fyke.forces.total import total_force, work_arrays
 from fyke.solve.linear import Pattern
 from fyke.solve.smooth import assemble_step
@@ -35,6 +37,13 @@ def flows(count=200, seed=1):
         yield w * 10.0 ** rng.uniform(-3.0, 0.5), t / np.linalg.norm(t)
 
 
+def law_at(w, t, el):
+    """c_n, c_t and their slopes of a bar along t in water of this velocity past it."""
+    out = np.empty((6, 1))
+    coefficients_of_bars(LENGTH * np.array([[0.0, 0.0, 0.0], t]), np.array([w, w]), el, out)
+    return tuple(out[:, 0].tolist())
+
+
 def one_bar(law):
     twine = fyke.Twine("n", density=1140.0, diameter=DIAMETER, law=fyke.LinearLaw(1e9))
     net = fyke.line(twine, np.array([[0.0, 0.0, 0.0], [0.0, 0.0, -LENGTH]]), LENGTH, fixed=(0,))
@@ -47,7 +56,7 @@ def test_force_of_a_bar_is_that_of_its_law(name):
     # Corners of a user's table and the joints of published pieces are a little rounder than they are said.
     allowed = {"table": 1e-3, "takagi": 1e-5, "cifuentes-kim": 1e-5}.get(name, 1e-6)
     for w, t in flows():
-        cn, ct, *_ = present_law(w, t, 0, el)
+        cn, ct, *_ = law_at(w, t, el)
         force = 2.0 * np.array(bar_water_force(*w, *t, cn * LENGTH, ct * LENGTH))
         speed, along = np.linalg.norm(w), w @ t
         n = w - along * t
@@ -64,12 +73,12 @@ def test_tangents_of_a_bar_against_differences(name):
 
     def force(d, w):
         length = np.linalg.norm(d)
-        cn, ct, *_ = present_law(w, d / length, 0, el)
+        cn, ct, *_ = law_at(w, d / length, el)
         return np.array(bar_water_force(*w, *(d / length), cn * length, ct * length))
 
     for w, t in flows(100):
         turn, press = np.empty((3, 3)), np.empty((3, 3))
-        bar_water_tangents(w, t, present_law(w, t, 0, el), LENGTH, turn, press)
+        bar_water_tangents(w, t, law_at(w, t, el), LENGTH, turn, press)
         d, h, hw = LENGTH * t, 1e-6 * LENGTH, 1e-6 * np.linalg.norm(w)
         by_place = np.column_stack([(force(d + h * e, w) - force(d - h * e, w)) / (2 * h) for e in np.eye(3)])
         by_speed = np.column_stack(
@@ -88,11 +97,15 @@ def test_drag_of_a_knot_is_that_of_its_law(name, nylon):
     el = fyke.make_system(net, coefficients=fyke.Coefficients(knots=law, bars=bars.White())).elements
     scale = 0.5 * 1000.0 * np.pi / 4.0 * KNOT**2
     for speed in np.geomspace(1e-3, 3.0, 60):
-        drag, slope = present_knot_drag(speed**2, 0, el)
-        assert drag == pytest.approx(scale * float(law.coefficients(speed * KNOT / VISCOSITY)), rel=1e-5)
         h = 1e-6 * speed**2
-        rise = present_knot_drag(speed**2 + h, 0, el)[0] - present_knot_drag(speed**2 - h, 0, el)[0]
-        assert slope * h == pytest.approx(0.5 * rise, abs=1e-9 * drag)
+        speeds = np.sqrt([speed**2, speed**2 - h, speed**2 + h])
+        rel = np.zeros((4, 3))
+        rel[:3, 1] = speeds
+        drags, slopes = np.empty((2, 4))
+        coefficients_of_knots(rel, el, drags, slopes)
+        (drag, below, above, _), slope = drags, slopes[0]
+        assert drag == pytest.approx(scale * float(law.coefficients(speed * KNOT / VISCOSITY)), rel=1e-5)
+        assert slope * h == pytest.approx(0.5 * (above - below), abs=1e-9 * drag)
 
 
 def test_constant_coefficients_as_curves_are_the_same_force(nylon):
@@ -120,15 +133,16 @@ def test_assembled_tangents_against_differences(name, nylon):
     )
     law = fyke.Coefficients(bars=BARS[name], knots=knots.CliftGauvin())
     system = fyke.make_system(net, current=(0.5, 0.1, 0.0), coefficients=law)
-    el, m = system.elements, net.bar_count
+    m = net.bar_count
     x = net.positions + np.random.default_rng(0).normal(scale=3e-3, size=net.positions.shape)
     v = np.random.default_rng(1).normal(scale=0.2, size=x.shape)
-    u = system.current.velocity(x, 0.0)
+    surroundings = Surroundings(system)
+    el, u = surroundings.at(x, v, 0.0)
 
     def load(x, v):
         t, length, out = np.empty((m, 3)), np.empty(m), np.empty_like(x)
         bar_geometry(x, el, t, length)
-        water_load(u - v, el, t, length, out)
+        water_load(u - v, surroundings.at(x, v, 0.0)[0], t, length, out)
         return out
 
     t, length = np.empty((m, 3)), np.empty(m)

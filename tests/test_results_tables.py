@@ -32,6 +32,7 @@ def bent_line(tension=(30.0, 0.0)):
         tension=np.array(tension),
         bar_drag=np.zeros(2),
         bar_lift=np.zeros(2),
+        water_velocity=np.zeros((2, 3)),
         water_force=np.zeros((3, 3)),
         hydrodynamic_force=np.array([6.0, 8.0, 24.0]),
         support_reaction=np.array([6.0, 8.0, 20.0]),

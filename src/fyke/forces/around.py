@@ -42,7 +42,7 @@ PITCH = BLOCK + STRIDE
 NEAR_ROWS = 9
 
 # Rows of Around.bars.
-REST_LENGTH, STIFFNESS, NORMAL, TANGENTIAL, DAMPING, ADDED, BAR_ROWS = range(7)
+REST_LENGTH, STIFFNESS, NORMAL, TANGENTIAL, DAMPING, ADDED, CURVE, REYNOLDS, BAR_ROWS = range(9)
 # Rows of Around.knots; 0 to 2 hold the weight.
 KNOT_DRAG, AREA, MASS, FREE, KNOT_ROWS = range(3, 8)
 
@@ -57,8 +57,8 @@ class Around(NamedTuple):
     neighbours, other_row: (s,) which row of it; bars: flat (rows, BAR_ROWS, BLOCK), properties as in Elements,
     bars_row: (s,) which row; knots: flat (rows, KNOT_ROWS, BLOCK), weight N, knot drag kg/m, drag coefficient of all
     that hangs on the knot kg/m, mass kg, free; knots_row: (blocks,). Blocks and slots that are alike share a row, which
-    spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where laws are not linear or plain or bars
-    are renewed. linear, damped, plain: as in Elements.
+    spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where laws are not linear or bars are
+    renewed. linear, damped, plain: as in Elements.
     """
 
     knot_count: int
@@ -269,9 +269,11 @@ class _SlotTable:
                 el.tangential_drag,
                 el.damping_time,
                 el.bar_added_mass,
+                el.bar_curve,
+                el.bar_reynolds,
             )
         )
-        self.look_up_bars, self.margin = renewable or not (el.linear and el.plain), margin
+        self.look_up_bars, self.margin = renewable or not el.linear, margin
         self.bars = _Shared(all_apart=renewable)
         self.first: list[int] = [0]
         self.shift: list[int] = []

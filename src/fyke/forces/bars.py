@@ -10,13 +10,7 @@ import numpy as np
 from numba import njit
 
 from .compiled import OPTIONS
-from .drag import (
-    bar_water_force,
-    bar_water_tangents,
-    present_coefficients,
-    present_knot_drag,
-    present_law,
-)
+from .drag import bar_water_force, bar_water_tangents
 from .tension import law_tension
 from .total import TINY_LENGTH
 
@@ -51,26 +45,24 @@ def elastic(stretch, el, f, k):
 def water_load(rel, el, t, length, out):
     """Weight, buoyancy and water on every knot into out (n, 3) N; rel: (n, 3) m/s, the water against the knots."""
     for i in range(out.shape[0]):
-        square = rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2
-        c = present_knot_drag(square, i, el)[0] * np.sqrt(square)
+        c = el.knot_drag[i] * np.sqrt(rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2)
         for q in range(3):
             out[i, q] = el.weight[i, q] + c * rel[i, q]
     for e in range(length.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
-        f = water_on_bar(e, rel, el, t, length)
+        f = bar_water_force(
+            0.5 * (rel[a, 0] + rel[b, 0]),
+            0.5 * (rel[a, 1] + rel[b, 1]),
+            0.5 * (rel[a, 2] + rel[b, 2]),
+            t[e, 0],
+            t[e, 1],
+            t[e, 2],
+            el.normal_drag[e] * length[e],
+            el.tangential_drag[e] * length[e],
+        )
         for q in range(3):
             out[a, q] += f[q]
             out[b, q] += f[q]
-
-
-@njit(**OPTIONS)
-def water_on_bar(e, rel, el, t, length):
-    """Force of the water on one end of bar e, three components N; rel: (n, 3) m/s, the water against the knots."""
-    a, b = el.knot_a[e], el.knot_b[e]
-    wx, wy, wz = 0.5 * (rel[a, 0] + rel[b, 0]), 0.5 * (rel[a, 1] + rel[b, 1]), 0.5 * (rel[a, 2] + rel[b, 2])
-    tx, ty, tz = t[e, 0], t[e, 1], t[e, 2]
-    cn, ct = present_coefficients(wx, wy, wz, tx, ty, tz, e, el)
-    return bar_water_force(wx, wy, wz, tx, ty, tz, cn * length[e], ct * length[e])
 
 
 @njit(**OPTIONS)
@@ -98,6 +90,15 @@ def largest_on_free(force, free):
 
 
 @njit(**OPTIONS)
+def law_of_bar(e, el):
+    """c_n, c_t (kg/m2) and their four slopes of bar e."""
+    cn, ct, by = el.normal_drag[e], el.tangential_drag[e], el.drag_slopes
+    if by.shape[1] == 0:
+        return cn, ct, 0.0, 0.0, 0.0, 0.0
+    return cn, ct, by[0, e], by[1, e], by[2, e], by[3, e]
+
+
+@njit(**OPTIONS)
 def assemble(block, rel, el, t, start, stride, data):
     """Tangent -dF/dx on the pattern's data: stiffness less the tangent of the water's load.
 
@@ -111,7 +112,7 @@ def assemble(block, rel, el, t, start, stride, data):
         a, b = el.knot_a[e], el.knot_b[e]
         for q in range(3):
             w[q] = 0.5 * (rel[a, q] + rel[b, q])
-        bar_water_tangents(w, t[e], present_law(w, t[e], e, el), 0.0, drag, press)
+        bar_water_tangents(w, t[e], law_of_bar(e, el), 0.0, drag, press)
         aa, ba, ab, bb = start[e, 0], start[e, 1], start[e, 2], start[e, 3]
         sa, sb = stride[e, 0], stride[e, 1]
         for q in range(3):

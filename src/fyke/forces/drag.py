@@ -12,7 +12,6 @@ import numpy as np
 from numba import njit
 
 from .compiled import OPTIONS
-from .laws import bar_law, knot_law
 
 
 @njit(**OPTIONS)
@@ -63,33 +62,3 @@ def bar_water_tangents(w, t, law, length, turn, press):
         turn[p, 0] = g[p] * t[0] + row0 + along * n0
         turn[p, 1] = g[p] * t[1] + row1 + along * n1
         turn[p, 2] = g[p] * t[2] + row2 + along * n2
-
-
-@njit(**OPTIONS)
-def present_law(w, t, e, el):
-    """c_n, c_t (kg/m2) and their four slopes of bar e for water of velocity w (3,) m/s past it, t its direction."""
-    if el.plain:
-        return el.normal_drag[e], el.tangential_drag[e], 0.0, 0.0, 0.0, 0.0
-    s = w[0] * t[0] + w[1] * t[1] + w[2] * t[2]
-    n0, n1, n2 = w[0] - s * t[0], w[1] - s * t[1], w[2] - s * t[2]
-    return bar_law(n0 * n0 + n1 * n1 + n2 * n2, s, e, el)
-
-
-@njit(**OPTIONS)
-def present_coefficients(wx, wy, wz, tx, ty, tz, e, el):
-    """c_n, c_t (kg/m2) of bar e for water of velocity w past it, t its direction."""
-    if el.plain:
-        return el.normal_drag[e], el.tangential_drag[e]
-    s = wx * tx + wy * ty + wz * tz
-    nx, ny, nz = wx - s * tx, wy - s * ty, wz - s * tz
-    law = bar_law(nx * nx + ny * ny + nz * nz, s, e, el)
-    return law[0], law[1]
-
-
-@njit(**OPTIONS)
-def present_knot_drag(square, i, el):
-    """1/2 rho C_D pi/4 d^2 (kg/m) of knot i at a speed squared (m2/s2), and its slope by that."""
-    if el.plain:
-        return el.knot_drag[i], 0.0
-    value, slope = knot_law(square, el.knot_curve[i], el.knot_curves)
-    return el.knot_drag[i] * value, el.knot_drag[i] * slope

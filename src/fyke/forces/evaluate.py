@@ -7,8 +7,9 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ..system.system import State, System
-from .bars import add_tension, bar_geometry, elastic, largest_on_free, water_load, water_on_bar
+from .bars import add_tension, bar_geometry, elastic, largest_on_free, water_load
 from .compiled import OPTIONS
+from .drag import bar_water_force
 from .frame import Frame
 from .inertia import kinetic_energy, mass_matrices
 from .surroundings import Surroundings
@@ -20,8 +21,17 @@ Array = NDArray[np.float64]
 def _water_on_bars(rel, el, t, length, out):
     """Force of the water on every bar, both ends together, into out (m, 3) N; rel: (n, 3) relative velocity m/s."""
     for e in range(length.shape[0]):
-        f = water_on_bar(e, rel, el, t, length)
-        out[e, 0], out[e, 1], out[e, 2] = 2.0 * f[0], 2.0 * f[1], 2.0 * f[2]
+        a, b = el.knot_a[e], el.knot_b[e]
+        out[e, 0], out[e, 1], out[e, 2] = bar_water_force(
+            0.5 * (rel[a, 0] + rel[b, 0]),
+            0.5 * (rel[a, 1] + rel[b, 1]),
+            0.5 * (rel[a, 2] + rel[b, 2]),
+            t[e, 0],
+            t[e, 1],
+            t[e, 2],
+            2.0 * el.normal_drag[e] * length[e],
+            2.0 * el.tangential_drag[e] * length[e],
+        )
 
 
 def bar_tensions(system: System, state: State, t: Array, length: Array) -> Array:

@@ -16,105 +16,68 @@ from .apart import keep, kept, put, summed, take
 from .around import (
     BAR_ROWS,
     BLOCK,
+    CURVE,
     DAMPING,
     KNOT_DRAG,
     KNOT_ROWS,
     NORMAL,
     PITCH,
     REST_LENGTH,
+    REYNOLDS,
     STIFFNESS,
     TANGENTIAL,
-    WATER,
     extent,
     neighbours,
     own_fields,
 )
 from .compiled import OPTIONS
-from .drag import bar_water_force, present_coefficients, present_knot_drag
+from .drag import bar_water_force
+from .laws import flow_by_bar, knot_law, vary
 from .tension import law_tension
 from .total import TINY_LENGTH
 
 # Rows of the work array g (WORK_ROWS x PITCH,): the force in 0 to 2, speed of the water past the knots, force on the
-# far ends of bars; tension is SLOPE x stretch + OFFSET; c_n, c_t of the drag in ACROSS, ALONG.
+# far ends of bars; tension is SLOPE x stretch + OFFSET; ACROSS, ALONG hold the flow past bars, then c_n, c_t of it.
 SPEED, FAR, SLOPE, OFFSET, ACROSS, ALONG, WORK_ROWS = 3, 4, 13, 14, 15, 16, 17
-# Rows of what laws say of every bar: slope and offset of its tension, coefficients c_n and c_t of its drag.
-LAW_ROWS = 4
 
 
 @njit(**OPTIONS)
-def laws_of_bars(start, end, old, uniform, fields, el, around, law):
-    """Slope dT/dl (N/m) of bars start .. end, tension less slope x stretch (N), c_n and c_t (kg/m2) into law.
+def laws_of_bars(start, end, old, fields, el, around, law):
+    """Slope dT/dl (N/m) of bars start .. end and tension less slope x stretch (N) into law (2, m + 1).
 
-    old: row of x in fields; law: (LAW_ROWS, m + 1), the first two rows where tension is not linear, the last two where
-    coefficients vary.
+    old: row of x in fields.
     """
-    width = around.width
     for e in range(start, end):
-        first = old * width + around.margin
+        first = old * around.width + around.margin
         a, b = first + np.int64(el.knot_a[e]), first + np.int64(el.knot_b[e])
-        d = (
-            take(fields, b) - take(fields, a),
-            take(fields, b + width) - take(fields, a + width),
-            take(fields, b + 2 * width) - take(fields, a + 2 * width),
-        )
-        length = np.sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2])
-        if not around.linear:
-            stretch = length - el.rest_length[e]
-            law[0, e] = law[1, e] = 0.0
-            if stretch > 0.0:
-                strain = length / el.rest_length[e] - 1.0
-                tension, slope = law_tension(max(strain, 0.0), el.law_rows, el.law_first[e], el.law_end[e])
-                law[0, e] = slope / el.rest_length[e]
-                law[1, e] = tension - law[0, e] * stretch
-        if not around.plain:
-            w = _flow_past(a, b, old, uniform, fields, around)
-            inverse = 1.0 / max(length, TINY_LENGTH)
-            t = (d[0] * inverse, d[1] * inverse, d[2] * inverse)
-            law[2, e], law[3, e] = present_coefficients(w[0], w[1], w[2], t[0], t[1], t[2], e, el)
+        square = 0.0
+        for q in range(3):
+            square += (take(fields, b + q * around.width) - take(fields, a + q * around.width)) ** 2
+        length = np.sqrt(square)
+        stretch = length - el.rest_length[e]
+        law[0, e] = law[1, e] = 0.0
+        if stretch > 0.0:
+            strain = length / el.rest_length[e] - 1.0
+            tension, slope = law_tension(max(strain, 0.0), el.law_rows, el.law_first[e], el.law_end[e])
+            law[0, e] = slope / el.rest_length[e]
+            law[1, e] = tension - law[0, e] * stretch
 
 
 @njit(**OPTIONS)
-def _flow_past(a, b, old, uniform, fields, around):
-    """Velocity (m/s) of the water past the middle of the bar between the knots whose x lies at a and b in fields."""
-    width = around.width
-    below = (WATER - old) * width
-    u_a = around.margin + WATER * width if uniform else a + below
-    u_b = u_a if uniform else b + below
-    v_a, v_b = a + 3 * width, b + 3 * width
-    return (
-        0.5 * (take(fields, u_a) + take(fields, u_b) - take(fields, v_a) - take(fields, v_b)),
-        0.5
-        * (
-            take(fields, u_a + width)
-            + take(fields, u_b + width)
-            - take(fields, v_a + width)
-            - take(fields, v_b + width)
-        ),
-        0.5
-        * (
-            take(fields, u_a + 2 * width)
-            + take(fields, u_b + 2 * width)
-            - take(fields, v_a + 2 * width)
-            - take(fields, v_b + 2 * width)
-        ),
-    )
-
-
-@njit(**OPTIONS)
-def share_laws(rank, team, old, uniform, fields, el, around, law):
+def share_laws(rank, team, old, fields, el, around, law):
     """Do one thread's share of laws_of_bars; whole blocks, so that no bit depends on the number of threads."""
     bars = el.knot_a.shape[0]
     blocks = (bars + BLOCK - 1) // BLOCK
     for block in range(blocks * rank // team, blocks * (rank + 1) // team):
-        laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), old, uniform, fields, el, around, law)
+        laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), old, fields, el, around, law)
 
 
 @njit(**OPTIONS)
 def block_force(block, old, uniform, fields, el, around, law, near, g):
     """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
-    old: row of x in fields; uniform: the water has the same velocity everywhere; law: as laws_of_bars
-    gives it; near: work array (NEAR_ROWS x PITCH,); g: (WORK_ROWS x PITCH,), OFFSET zero.
+    old: row of x in fields; uniform: the water has the same velocity everywhere; law: (2, m + 1) as laws_of_bars gives
+    it, used where laws are not linear; near: work array (NEAR_ROWS x PITCH,); g: (WORK_ROWS x PITCH,), OFFSET zero.
     """
     here, size = extent(block, around)
     water = around.margin if uniform else here
@@ -127,17 +90,17 @@ def block_force(block, old, uniform, fields, el, around, law, near, g):
         row = around.bars_row[slot] * BAR_ROWS
         slopes, slope = around.bars, (row + STIFFNESS) * BLOCK
         drags, across, along = around.bars, (row + NORMAL) * BLOCK, (row + TANGENTIAL) * BLOCK
-        if not around.plain:
-            drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
-            for i in range(begin, end):
-                g[ACROSS * PITCH + i] = law[2, around.bar[slot, i]]
-                g[ALONG * PITCH + i] = law[3, around.bar[slot, i]]
         if not around.linear:
             slopes, slope = g, SLOPE * PITCH
             for i in range(begin, end):
                 g[SLOPE * PITCH + i] = law[0, around.bar[slot, i]]
                 g[OFFSET * PITCH + i] = law[1, around.bar[slot, i]]
         others = neighbours(slot, old, here, water, fields, around, near)
+        if not around.plain:
+            drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
+            _flow_past(begin, end, own, others, g)
+            places = (row + NORMAL) * BLOCK, (row + CURVE) * BLOCK, (row + REYNOLDS) * BLOCK
+            vary(begin, end, g, across, along, around.bars, places, el)
         _add_bars(slot, own, others, slopes, slope, drags, across, along, around, g)
         if around.both[slot]:
             shift = around.shift[slot]
@@ -174,12 +137,33 @@ def _own_forces(size, own, first, knots, g):
 def _by_knot_laws(low, size, own, el, g):
     """Change the drag of knots low .. low + size in rows 0 to 2 of g from that of the reference to that of the law."""
     fields, width, _, v, u = own
+    curves = el.knot_curves
     for i in range(min(size, el.knot_curve.shape[0] - low)):
         speed = summed(g, SPEED * PITCH + i)
-        c = (present_knot_drag(speed * speed, low + i, el)[0] - el.knot_drag[low + i]) * speed
+        changed = knot_law(speed * speed, el.knot_curve[low + i], curves)[0] - 1.0
+        c = changed * el.knot_drag[low + i] * speed
         for q in range(3):
             w = take(fields, u + q * width + i) - take(fields, v + q * width + i)
             put(g, q * PITCH + i, summed(g, q * PITCH + i) + c * w)
+
+
+@njit(**OPTIONS)
+def _flow_past(begin, end, own, others, g):
+    """Square (m2/s2) of the speed across one slot's bars into ACROSS, speed along them (m/s) into ALONG."""
+    fields, width, x, v, u = own
+    far, pitch, far_x, far_v, far_u = others
+    for i in range(begin, end):
+        dx = take(far, far_x + i) - take(fields, x + i)
+        dy = take(far, far_x + pitch + i) - take(fields, x + width + i)
+        dz = take(far, far_x + 2 * pitch + i) - take(fields, x + 2 * width + i)
+        p = take(fields, u + i) + take(far, far_u + i) - take(fields, v + i) - take(far, far_v + i)
+        q = take(fields, u + width + i) + take(far, far_u + pitch + i)
+        q -= take(fields, v + width + i) + take(far, far_v + pitch + i)
+        r = take(fields, u + 2 * width + i) + take(far, far_u + 2 * pitch + i)
+        r -= take(fields, v + 2 * width + i) + take(far, far_v + 2 * pitch + i)
+        square, along = flow_by_bar(dx, dy, dz, 0.5 * p, 0.5 * q, 0.5 * r)
+        keep(g, ACROSS * PITCH + i, square)
+        keep(g, ALONG * PITCH + i, along)
 
 
 @njit(**OPTIONS)

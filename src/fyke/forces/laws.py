@@ -12,7 +12,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from ..system.curves import FIRST, HIGHEST, INTERVALS, INVERSE_WIDTH, LOWEST, SHIFT
+from ..system.curves import FIRST, HIGHEST, INTERVALS, INVERSE_WIDTH, LOWEST, ROW, SHIFT
+from .apart import keep, kept, take
 from .compiled import OPTIONS
 
 _LOW, _HIGH = 2.0**LOWEST, 2.0**HIGHEST
@@ -34,49 +35,79 @@ def _place(square):
 def knot_law(square, curve, curves):
     """C_D of a knot over its reference at a speed squared (m2/s2), and its slope (s2/m2); curve: which of curves."""
     k, u, moves = _place(square)
-    row = curves[curve, k]
-    value = row[0] + u * (row[1] + u * (row[2] + u * row[3]))
-    return value, moves * row[4] * (row[1] + u * (2.0 * row[2] + 3.0 * u * row[3]))
+    c1, c2, c3 = curves[curve, k, 1], curves[curve, k, 2], curves[curve, k, 3]
+    steep = moves * curves[curve, k, 4]
+    return curves[curve, k, 0] + u * (c1 + u * (c2 + u * c3)), steep * (c1 + u * (2.0 * c2 + 3.0 * u * c3))
 
 
 @njit(inline="always", **OPTIONS)
-def bar_law(square, along, e, el):
-    """Present c_n, c_t (kg/m2) of bar e at a speed squared across (m2/s2) and a speed along it (m/s), with slopes.
+def split_law(square, along, c, curve, curves, friction):
+    """Present c_n, c_t (kg/m2) of a bar at a speed squared across (m2/s2) and a speed along it (m/s), with slopes.
 
-    The slopes are those of c_n by both, then of c_t by both.
+    The slopes are those of c_n by both, then of c_t by both. c: kg/m2, the bar's normal_drag; curve: which of curves.
     """
-    c = el.normal_drag[e]
-    if el.angles.reynolds.shape[0] > 0:
-        return _by_angle(square, along, el.bar_reynolds[e], c / el.bar_reference[e], el.angles)
     k, u, moves = _place(square)
-    row = el.bar_curves[el.bar_curve[e], k]
-    steep = moves * row[INVERSE_WIDTH]
-    size = max(abs(along), STILL)
-    inverse = 1.0 / size
+    row = (curve * INTERVALS + k) * ROW
+    steep = moves * take(curves, row + INVERSE_WIDTH)
+    inverse = 1.0 / max(abs(along), STILL)
     side = inverse if along >= 0.0 else -inverse
-    n, n_q = _cubic(row, 0, u)
-    a, a_q = _cubic(row, 4, u)
-    b, b_q = _cubic(row, 8, u)
+    n, n_q = _cubic(curves, row, u)
+    a, a_q = _cubic(curves, row + 4, u)
+    b, b_q = _cubic(curves, row + 8, u)
     n_q, t_q, n_s, t_s = n_q * steep, (a_q * inverse + b_q) * steep, 0.0, -a * inverse * side
     t = a * inverse + b
-    if el.friction > 0.0:
+    if friction > 0.0:
         across = 1.0 / max(np.sqrt(square), STILL)
         total = np.sqrt(square + along * along)
-        drawn, half = el.friction * total, 0.5 * el.friction / max(total, STILL)
+        drawn, half = friction * total, 0.5 * friction / max(total, STILL)
         n += drawn * across
         n_q += half * across - 0.5 * drawn * across * across * across
         n_s += 2.0 * half * along * across
         t += drawn * inverse
         t_q += half * inverse
-        t_s += (2.0 * half * along - drawn * side * size * inverse) * inverse
+        t_s += (2.0 * half * along - drawn * side) * inverse
     return c * n, c * t, c * n_q, c * n_s, c * t_q, c * t_s
 
 
 @njit(**OPTIONS)
-def _cubic(row, first, u):
-    """Value and slope by u of a cubic whose coefficients begin at a column."""
-    c1, c2, c3 = row[first + 1], row[first + 2], row[first + 3]
-    return row[first] + u * (c1 + u * (c2 + u * c3)), c1 + u * (2.0 * c2 + 3.0 * u * c3)
+def _cubic(curves, place, u):
+    """Value and slope by u of the cubic whose coefficients lie from a place on."""
+    c1, c2, c3 = take(curves, place + 1), take(curves, place + 2), take(curves, place + 3)
+    return take(curves, place) + u * (c1 + u * (c2 + u * c3)), c1 + u * (2.0 * c2 + 3.0 * u * c3)
+
+
+@njit(**OPTIONS)
+def flow_by_bar(dx, dy, dz, wx, wy, wz):
+    """Square (m2/s2) of the part across d of a velocity w, and its part along d (m/s)."""
+    inverse = 1.0 / np.sqrt(max(dx * dx + dy * dy + dz * dz, STILL))
+    tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
+    s = wx * tx + wy * ty + wz * tz
+    nx, ny, nz = wx - s * tx, wy - s * ty, wz - s * tz
+    return nx * nx + ny * ny + nz * nz, s
+
+
+@njit(**OPTIONS)
+def vary(begin, end, g, across, along, rows, places, el):
+    """Put c_n and c_t (kg/m2) in place of the squares of speeds across bars and speeds along them.
+
+    These lie in g from the places across + begin and along + begin on. rows: flat, normal_drag, bar_curve and
+    bar_reynolds of the bars from three places + begin on.
+    """
+    c_at, curve_at, reynolds_at = places
+    curves, friction, angles = el.bar_curves, el.friction, el.angles
+    if angles.reynolds.shape[0] > 0:
+        for i in range(begin, end):
+            q, s, r = kept(g, across + i), kept(g, along + i), take(rows, reynolds_at + i)
+            law = angle_law(q, s, r, take(rows, c_at + i), angles)
+            keep(g, across + i, law[0])
+            keep(g, along + i, law[1])
+        return
+    for i in range(begin, end):
+        which = np.int64(take(rows, curve_at + i))
+        q, s = kept(g, across + i), kept(g, along + i)
+        law = split_law(q, s, take(rows, c_at + i), which, curves, friction)
+        keep(g, across + i, law[0])
+        keep(g, along + i, law[1])
 
 
 @njit(**OPTIONS)
@@ -100,8 +131,8 @@ def _grid(table, i, u, j, v):
 
 
 @njit(**OPTIONS)
-def _by_angle(square, along, reynolds, c, angles):
-    """What bar_law returns, from C_D and C_L by Re and angle; reynolds: d / nu (s/m)."""
+def angle_law(square, along, reynolds, c, angles):
+    """What split_law returns, from C_D and C_L by Re and angle; reynolds: d / nu (s/m)."""
     n, s = max(np.sqrt(square), STILL), max(abs(along), STILL)
     side = 1.0 if along >= 0.0 else -1.0
     r2 = n * n + s * s
@@ -134,3 +165,39 @@ def _by_speed(one, other, r2, drag_log, drag_angle, lift_log, lift_angle):
     """Slopes of C_D and C_L by one of the speeds n, s: d ln r = one / r^2, d angle = (s, -n) / r^2."""
     turn = other / r2
     return drag_log * one / r2 + drag_angle * turn, lift_log * one / r2 + lift_angle * turn
+
+
+@njit(**OPTIONS)
+def coefficients_of_bars(x, rel, el, out):
+    """Present c_n and c_t (kg/m2) of the bars and their four slopes into out (6, m).
+
+    x: (n, 3) m; rel: (n, 3) m/s, the water against the knots.
+    """
+    curves, friction, angles = el.bar_curves, el.friction, el.angles
+    by_angle = angles.reynolds.shape[0] > 0
+    for e in range(out.shape[1]):
+        a, b = el.knot_a[e], el.knot_b[e]
+        dx, dy, dz = x[b, 0] - x[a, 0], x[b, 1] - x[a, 1], x[b, 2] - x[a, 2]
+        wx, wy, wz = (
+            0.5 * (rel[a, 0] + rel[b, 0]),
+            0.5 * (rel[a, 1] + rel[b, 1]),
+            0.5 * (rel[a, 2] + rel[b, 2]),
+        )
+        square, along = flow_by_bar(dx, dy, dz, wx, wy, wz)
+        c = el.normal_drag[e]
+        if by_angle:
+            law = angle_law(square, along, el.bar_reynolds[e], c, angles)
+        else:
+            law = split_law(square, along, c, np.int64(el.bar_curve[e]), curves, friction)
+        for k in range(6):
+            out[k, e] = law[k]
+
+
+@njit(**OPTIONS)
+def coefficients_of_knots(rel, el, drag, slope):
+    """Present 1/2 rho C_D pi/4 d^2 (kg/m) of the knots into drag (n,), its slope by the speed squared into slope."""
+    curves = el.knot_curves
+    for i in range(rel.shape[0]):
+        square = rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2
+        value, steep = knot_law(square, el.knot_curve[i], curves)
+        drag[i], slope[i] = el.knot_drag[i] * value, el.knot_drag[i] * steep

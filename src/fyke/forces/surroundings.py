@@ -1,10 +1,11 @@
 """The water at the knots of a net at one moment, and the net's elements as they are in it.
 
-Still kernels know two things of the water: its velocity at the knots, and Elements. Where currents vary, waves pass or
-the net rises above the surface, both are worked out anew for a shape and a time:
+Kernels know two things of the water: its velocity at the knots, and Elements. Where currents vary, waves pass, the net
+rises above the surface or laws know the speed, both are worked out anew for a shape, its motion and a time:
     velocity      shelter x current + waves;
     wetness       part of a bar or knot under the surface, which drag, added mass and buoyancy are multiplied by;
     added mass    by the angle between bar and flow, where its law knows one;
+    coefficients  of drag by their laws, with slopes;
     fluid inertia rho V a + C_a rho V (a - (a.t) t) of every bar and (1 + C_a) rho V a of every knot in accelerating
                   water, added to the weight (Morison's equation of a moving body, whose own -C_a rho V dv/dt is in its
                   mass).
@@ -19,6 +20,7 @@ from numpy.typing import NDArray
 from ..system.elements import Elements
 from ..system.system import Displaced, System
 from .compiled import OPTIONS
+from .laws import coefficients_of_bars, coefficients_of_knots
 from .total import TINY_LENGTH
 
 Array = NDArray[np.float64]
@@ -75,6 +77,20 @@ def add_fluid_inertia(x, acceleration, el, bar_displaced, knot_inertia, out):
             out[i, 2] += whole * r - along * dz
 
 
+def _by_law(x: Array, rel: Array, el: Elements) -> Elements:
+    """Coefficients of drag for water of this velocity rel (n, 3) m/s past the knots."""
+    bars, knots = np.empty((6, len(el.rest_length))), np.empty((2, len(x)))
+    coefficients_of_bars(x, rel, el, bars)
+    coefficients_of_knots(rel, el, knots[0], knots[1])
+    return el._replace(
+        normal_drag=bars[0],
+        tangential_drag=bars[1],
+        drag_slopes=bars[2:],
+        knot_drag=knots[0],
+        knot_slopes=knots[1],
+    )
+
+
 class Surroundings:
     """The water around one net on its way; shelter is that of the shape of the last renewal."""
 
@@ -87,9 +103,18 @@ class Surroundings:
 
     @property
     def steady(self) -> bool:
-        """Whether neither water nor elements change with time or shape."""
+        """Whether water and elements stay the same under the surface, whatever the net's shape and the time."""
         s = self.system
-        return s.current.steady and s.current.uniform and not (s.surface or s.waves or self._by_angle)
+        return s.current.steady and s.current.uniform and not (s.waves or self._by_angle)
+
+    @property
+    def constant(self) -> bool:
+        """Whether they stay the same at any speed, too."""
+        return self.steady and self.system.elements.plain
+
+    def near_surface(self, x: Array, rise: float) -> bool:
+        """Whether knots at x (n, 3) m that rise by this much (m) come out of still water."""
+        return self.system.surface and float(x[:, 2].max(initial=-np.inf)) + rise > -self._reach
 
     def renew(self, x: Array, time: float) -> None:
         """Find the shelter of positions x (n, 3) m."""
@@ -99,14 +124,22 @@ class Surroundings:
         return self.system.current.velocity(x, time)
 
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
-        """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3)."""
+        """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).
+
+        The elements hold the coefficients of drag of this moment, with their slopes.
+        """
+        el, u = self.given(x, v, time)
+        return (el if el.plain else _by_law(x, u - v, el)), u
+
+    def given(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
+        """Return what `at` does with the laws of drag not yet asked: for kernels that ask them at every step."""
         system, u = self.system, self.velocity(x, time)
         waves = None if system.waves is None else system.waves.motion(x, time)
         if waves is not None:
             u = u + waves.velocity
         el = self._added_by_angle(x, u - v) if self._by_angle else system.elements
         displaced = system.displaced
-        if system.surface:
+        if waves is not None or self.near_surface(x, 0.0):
             el, displaced = self._wetted(el, x, np.zeros(len(x)) if waves is None else waves.elevation)
         if waves is not None:
             weight = el.weight.copy()

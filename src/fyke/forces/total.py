@@ -12,7 +12,8 @@ import numpy as np
 from numba import njit
 
 from .compiled import OPTIONS
-from .drag import bar_water_force, present_coefficients, present_knot_drag
+from .drag import bar_water_force
+from .laws import flow_by_bar, knot_law, vary
 from .tension import law_tension
 
 # Bars are taken in blocks that fit the first-level cache: gather, vector mathematics, scatter.
@@ -25,12 +26,15 @@ TINY_LENGTH = 1e-300
 @njit(**OPTIONS)
 def knot_forces(v, u, el, rel, out):
     """Weight and knot drag into out (n, 3) N; velocity of the water relative to the knot into rel (n, 3) m/s."""
+    curves = el.knot_curves
     for i in range(v.shape[0]):
         wx = u[i, 0] - v[i, 0]
         wy = u[i, 1] - v[i, 1]
         wz = u[i, 2] - v[i, 2]
         square = wx * wx + wy * wy + wz * wz
-        c = present_knot_drag(square, i, el)[0] * np.sqrt(square)
+        c = el.knot_drag[i] * np.sqrt(square)
+        if not el.plain:
+            c *= knot_law(square, el.knot_curve[i], curves)[0]
         rel[i, 0], rel[i, 1], rel[i, 2] = wx, wy, wz
         out[i, 0] = el.weight[i, 0] + c * wx
         out[i, 1] = el.weight[i, 1] + c * wy
@@ -42,7 +46,7 @@ def total_force(x, v, u, el, rel, g, out):
     """Force on every knot into out (n, 3) N.
 
     x, v, u: (n, 3) position m, velocity m/s, velocity of the water at the knots m/s; el: Elements; rel: (n, 3) and
-    g: (11, BLOCK) work arrays.
+    g: (16, BLOCK) work arrays.
     """
     knot_forces(v, u, el, rel, out)
     m = el.knot_a.shape[0]
@@ -66,15 +70,16 @@ def total_force(x, v, u, el, rel, g, out):
                 g[8, i] = v[b, 2] - v[a, 2]
         if not el.linear:
             _law_of_block(start, size, el, g)
+        _drag_of_block(start, size, el, g)
         for i in range(size):
             e = start + i
             dx, dy, dz = g[0, i], g[1, i], g[2, i]
             length = np.sqrt(dx * dx + dy * dy + dz * dz)
             inverse = 1.0 / max(length, TINY_LENGTH)
             tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
-            wx, wy, wz = g[3, i], g[4, i], g[5, i]
-            cn, ct = present_coefficients(wx, wy, wz, tx, ty, tz, e, el)
-            fx, fy, fz = bar_water_force(wx, wy, wz, tx, ty, tz, cn * length, ct * length)
+            fx, fy, fz = bar_water_force(
+                g[3, i], g[4, i], g[5, i], tx, ty, tz, g[11, i] * length, g[12, i] * length
+            )
             stretch = length - el.rest_length[e]
             if el.linear:
                 tension = el.stiffness[e] * stretch
@@ -113,6 +118,24 @@ def _law_of_block(start, size, el, g):
             g[10, i] = slope / el.rest_length[e]
 
 
+@njit(**OPTIONS)
+def _drag_of_block(start, size, el, g):
+    """Coefficients c_n and c_t (kg/m2) of the drag into g[11] and g[12]."""
+    if el.plain:
+        for i in range(size):
+            g[11, i] = el.normal_drag[start + i]
+            g[12, i] = el.tangential_drag[start + i]
+        return
+    for i in range(size):
+        square, along = flow_by_bar(g[0, i], g[1, i], g[2, i], g[3, i], g[4, i], g[5, i])
+        g[11, i] = square
+        g[12, i] = along
+        g[13, i] = el.normal_drag[start + i]
+        g[14, i] = el.bar_curve[start + i]
+        g[15, i] = el.bar_reynolds[start + i]
+    vary(0, size, g, 11 * BLOCK, 12 * BLOCK, g, (13 * BLOCK, 14 * BLOCK, 15 * BLOCK), el)
+
+
 def work_arrays(knots: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the work arrays of total_force for so many knots."""
-    return np.zeros((knots, 3)), np.zeros((11, BLOCK))
+    return np.zeros((knots, 3)), np.zeros((16, BLOCK))

@@ -76,7 +76,7 @@ class Equilibrium:
         self.origin = start.position.mean(axis=0)
         self.x = start.position - self.origin
         self._still = np.zeros_like(self.x)
-        self._find_water()
+        self.u = self.x
         self.b = Work.of(len(self.x), len(self.el.knot_a), self.pattern)
         self.iterations = self.factorizations = 0
         self.residual, self.worst = self.true_residual()
@@ -88,14 +88,9 @@ class Equilibrium:
         size = float(np.abs(self.x).max(initial=0.0))
         return ROUNDING * float(np.finfo(float).eps) * float(self.el.stiffness.max(initial=0.0)) * size
 
-    def _find_water(self) -> None:
-        """Find elements and velocity of the water (n, 3) m/s at the present positions."""
-        self.el, self.u = self.surroundings.at(self.x + self.origin, self._still, self.time)
-
     def true_residual(self) -> tuple[float, int]:
         """Largest unbalanced force (N) on a free knot, and that knot."""
-        if not self.surroundings.steady:
-            self._find_water()
+        self.el, self.u = self.surroundings.at(self.x + self.origin, self._still, self.time)
         b, el = self.b, self.el
         bar_geometry(self.x, el, b.t, b.length)
         elastic(b.length - el.rest_length, el, b.f, b.k)

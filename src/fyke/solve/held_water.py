@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 VARIES, GROWTH, SHRINK = 1e-2, 2.0, 0.25
 # Spans of so many steps at least, so that finding the water does not cost more than moving the net; s at most.
 FEWEST_STEPS, LONGEST = 4, 0.1
+# Part of the net's size that must lie between it and the surface, or the surface is looked after.
+MARGIN = 0.05
 TINY = 1e-300
 
 
@@ -30,30 +32,32 @@ class HeldWater:
     def __init__(self, system: System, state: State) -> None:
         self._around = Surroundings(system)
         self._around.renew(state.position, state.time)
-        self._present = self._around.at(state.position, state.velocity, state.time)
+        self._present = self._around.given(state.position, state.velocity, state.time)
         self._span, self._middle = 0.0, state.time
 
-    @property
-    def steady(self) -> bool:
-        """Whether the water never changes."""
-        return self._around.steady
+    def rests(self, state: State) -> bool:
+        """Whether the water stays as it is, the surface far enough from the net."""
+        fastest = float(state.velocity[:, 2].max(initial=0.0))
+        size = float(np.ptp(state.position, axis=0).max(initial=0.0))
+        rise = max(LONGEST * fastest, MARGIN * size)
+        return self._around.steady and not self._around.near_surface(state.position, rise)
 
     def ahead(self, state: State, end: float, step: float) -> tuple[Elements, Array, float]:
         """Elements, velocity of the water (n, 3) m/s, and the time (s) until which they are held, at most end.
 
         step: s, of the stepper.
         """
-        if self.steady:
+        x, left = state.position, end - state.time
+        if self.rests(state):
+            self._present = self._around.given(x, state.velocity, state.time)
             return *self._present, end
-        left = end - state.time
         span = min(max(self._span, FEWEST_STEPS * step), LONGEST)
         # Two spans of the same length rather than a long and a short one.
-        span = left if span >= left else min(span, 0.5 * left) if 2.0 * span > left else span
-        middle = state.time + 0.5 * span
-        x = state.position + 0.5 * span * state.velocity
-        before = self._present[1]
+        span = left if span >= left else min(span, 0.5 * left)
+        middle, before = state.time + 0.5 * span, self._present[1]
+        x = x + 0.5 * span * state.velocity
         self._around.renew(x, middle)
-        self._present = self._around.at(x, state.velocity, middle)
+        self._present = self._around.given(x, state.velocity, middle)
         change = float(np.abs(self._present[1] - before).max(initial=0.0)) / max(middle - self._middle, TINY)
         largest = float(np.abs(self._present[1]).max(initial=0.0))
         wanted = VARIES * largest / max(change, TINY)
@@ -63,12 +67,9 @@ class HeldWater:
 
     def memory(self) -> Memory:
         """Return what the next span depends on."""
-        if self.steady:
-            return {}
         return {"water_time": np.array([self._span, self._middle]), "water": self._present[1]}
 
     def restore(self, memory: Memory) -> None:
         """Go on from there."""
-        if not self.steady:
-            self._span, self._middle = (float(value) for value in memory["water_time"])
-            self._present = self._present[0], memory["water"]
+        self._span, self._middle = (float(value) for value in memory["water_time"])
+        self._present = self._present[0], memory["water"]

@@ -152,11 +152,11 @@ class ImplicitRun:
 
     def _beginning(self) -> tuple[Array, Array, Array]:
         """Acceleration (n, 3), law (m,) and load (n, 3) of the state at the beginning."""
-        el, self.u = self.surroundings.at(self.x, self.v, self.time)
-        bars = self.system.net.bar_count
+        given, self.u = self.surroundings.given(self.x, self.v, self.time)
+        el, bars = self.surroundings.at(self.x, self.v, self.time)[0], self.system.net.bar_count
         rel, g = work_arrays(len(self.x))
         force, a, load, inverse = (np.zeros((len(self.x), width)) for width in (3, 3, 3, 6))
-        total_force(self.x, self.v, self.u, el, rel, g, force)
+        total_force(self.x, self.v, self.u, given, rel, g, force)
         mass_matrices(self.x, el, inverse)
         invert_masses(inverse, el.free)
         i = inverse

@@ -11,7 +11,8 @@ import numpy as np
 from numba import njit
 
 from ..forces.compiled import OPTIONS
-from ..forces.drag import bar_water_tangents, present_knot_drag, present_law
+from ..forces.bars import law_of_bar
+from ..forces.drag import bar_water_tangents
 
 
 @njit(**OPTIONS)
@@ -48,7 +49,7 @@ def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, symmetric, sta
             w[q] = 0.5 * (rel[a, q] + rel[b, q])
         t0 = t[e]
         # The velocity of the bar's middle is half of each end's.
-        bar_water_tangents(w, t0, present_law(w, t0, e, el), 0.5 * c1 * length[e], turn, press)
+        bar_water_tangents(w, t0, law_of_bar(e, el), 0.5 * c1 * length[e], turn, press)
         for q in range(3):
             for p in range(3):
                 # Blocks (a, a) and (b, b) are symmetric by themselves, (b, a) and (a, b) mirror each other.
@@ -91,8 +92,10 @@ def _add_knots(rel, el, c1, cm, mass, diagonal, data):
         square = w[0] * w[0] + w[1] * w[1] + w[2] * w[2]
         size = np.sqrt(square)
         inverse = 1.0 / size if size > 0.0 else 0.0
-        drag, slope = present_knot_drag(square, i, el)
-        both = drag * inverse + 2.0 * slope * size
+        drag = el.knot_drag[i]
+        both = drag * inverse
+        if el.knot_slopes.shape[0] > 0:
+            both += 2.0 * el.knot_slopes[i] * size
         for q in range(3):
             for p in range(3):
                 pressed = w[p] * w[q] * both + (size * drag if p == q else 0.0)

@@ -126,8 +126,7 @@ class StepNewton:
 
     def _residual(self) -> None:
         """Geometry, law, loads and masses of the present guess; residuals of the bars' equations (N)."""
-        if not self.surroundings.steady:
-            self.el, self.u = self.surroundings.at(self.x, self.v, self.time)
+        self.el, self.u = self.surroundings.at(self.x, self.v, self.time)
         el = self.el
         bar_geometry(self.x, el, self.t, self.length)
         np.subtract(self.length, el.rest_length, out=self.de)

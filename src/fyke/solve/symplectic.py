@@ -34,7 +34,7 @@ from ..forces.around import (
     renumbered,
 )
 from ..forces.compiled import OPTIONS
-from ..forces.gather import FAR, LAW_ROWS, SPEED, WORK_ROWS, block_force, share_laws
+from ..forces.gather import FAR, SPEED, WORK_ROWS, block_force, share_laws
 from ..forces.inertia import block_inverse_masses
 from ..forces.team import LINE, meet, run_team, threads_for
 from ..system.system import State, System
@@ -90,7 +90,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
     """Take so many steps of h (s) as one of a team; x and v at the same time before and after.
 
     fields: as forces.around lays them out; x begins in row 0 and ends in row 0 after an odd number of steps, else in
-    row HERE_ROWS; uniform: the water has the same velocity everywhere; law: (LAW_ROWS, m + 1); inverse: flat
+    row HERE_ROWS; uniform: the water has the same velocity everywhere; law: (2, m + 1); inverse: flat
     (blocks, 6, BLOCK); rates: (2, team x LINE).
     """
     blocks = around.first.shape[0] - 1
@@ -100,8 +100,8 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
     for step in range(steps + 1):
         old = HERE_ROWS * (step & 1)
         new = HERE_ROWS - old
-        if not (around.linear and around.plain):
-            share_laws(rank, team, old, uniform, fields, el, around, law)
+        if not around.linear:
+            share_laws(rank, team, old, fields, el, around, law)
             if not meet(signal, team):
                 return
         renew = lag <= 0
@@ -153,11 +153,11 @@ class SymplecticRun:
         self._order = knots_in_order(system.elements, system.net.positions)
         self.water = HeldWater(system, state)
         self._elements = el = renumbered(system.elements, self._order)
-        self.around = around = bars_around(el, renewable=not self.water.steady)
+        self._renewable = not self.water.rests(state)
+        self.around = around = bars_around(el, renewable=self._renewable)
         self.threads = threads_for(system.net.bar_count)
         self.steps_per_call = int(np.clip(WORK_PER_CALL // max(system.net.bar_count, 1), *STEPS_PER_CALL))
-        looked_up = 1 if el.linear and el.plain else system.net.bar_count + 1
-        self._law = np.zeros((LAW_ROWS, looked_up))
+        self._law = np.zeros((2, 1 if el.linear else system.net.bar_count + 1))
         self._inverse = np.zeros(around.blocks * 6 * BLOCK)
         self._fields = around.fields()
         self.step = self._bound(state)
@@ -173,8 +173,10 @@ class SymplecticRun:
         self.step = self._bound(old)
         present, flow, until = self.water.ahead(old, end, self.step)
         left = until - old.time
-        if not self.water.steady:
+        if self._renewable or not self.water.rests(old):
             self._elements = renumbered(present, self._order)
+            if not self._renewable:
+                self.around, self._renewable = bars_around(self._elements, renewable=True), True
             self.around = renew(self.around, self._elements)
         wanted = int(np.ceil(left / self.step * (1.0 - 1e-12)))
         steps = min(wanted, self.steps_per_call)

@@ -133,14 +133,17 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     bars, knots = c.bars, c.knots
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
-    fields: dict[str, Any] = {"bar_reynolds": net.bar_diameter / w.kinematic_viscosity}
+    fields: dict[str, Any] = {
+        "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
+        "drag_slopes": np.zeros((4, 0)),
+        "knot_slopes": np.zeros(0),
+    }
     if isinstance(bars, ConstantBar) and isinstance(knots, ConstantKnot):
         return fields | {
             "plain": True,
             "normal_drag": scale * bars.normal,
             "tangential_drag": scale * bars.tangential,
             "knot_drag": disc * knots.drag,
-            "bar_reference": np.full(len(scale), bars.normal),
             "bar_curve": zeros[0],
             "bar_curves": np.zeros((1, INTERVALS, ROW)),
             "friction": 0.0,
@@ -157,7 +160,6 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
         "normal_drag": scale * curves.reference[bar_curve],
         "tangential_drag": scale * curves.along[bar_curve],
         "knot_drag": disc * reference[knot_curve],
-        "bar_reference": curves.reference[bar_curve],
         "bar_curve": bar_curve.astype(np.int32),
         "bar_curves": curves.rows,
         "friction": curves.friction,

@@ -29,7 +29,10 @@ REFERENCE_SPEED = 0.5
 
 
 class Angles(NamedTuple):
-    """C_D and C_L by speed and angle: logs of Re (r,), angles (a,) rad, drag and lift (r, a); all empty for none."""
+    """C_D and C_L by speed and angle, over a reference: logs of Re (r,), angles (a,) rad, drag and lift (r, a).
+
+    All are empty for none.
+    """
 
     reynolds: Array
     angle: Array
@@ -71,15 +74,12 @@ def bar_curves(law: BarLaw, reynolds_per_speed: Array) -> BarCurves:
     """Tabulate a law for bars of thickness over viscosity (k,) s/m. TypeError for a law of no known form."""
     count = len(reynolds_per_speed)
     if isinstance(law, AngleTable):
-        angles = Angles(
-            *(np.array(part, dtype=float) for part in (law.reynolds, law.angle, law.drag, law.lift))
-        )
-        angles = angles._replace(reynolds=np.log(angles.reynolds))
-        across, along = (
-            np.array([float(law.force(REFERENCE_SPEED * r, angle)[which]) for r in reynolds_per_speed])
-            for which, angle in ((0, np.pi / 2.0), (1, 0.0))
-        )
-        return BarCurves(_not_zero(across), along, np.zeros((count, 0, ROW)), 0.0, angles)
+        middle = REFERENCE_SPEED * float(np.mean(reynolds_per_speed))
+        reference = float(law.force(middle, np.pi / 2.0)[0]) or 1.0
+        tables = (np.array(table, dtype=float) / reference for table in (law.drag, law.lift))
+        angles = Angles(np.log(law.reynolds), np.array(law.angle, dtype=float), *tables)
+        along = np.full(count, float(law.force(middle, 0.0)[1]))
+        return BarCurves(np.full(count, reference), along, np.zeros((count, 1, ROW)), 0.0, angles)
     if isinstance(law, Hoerner):
         rows = np.zeros((count, INTERVALS, ROW))
         rows[:, :, 0] = 1.0

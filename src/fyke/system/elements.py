@@ -23,9 +23,11 @@ class Elements(NamedTuple):
     (m,) rows of a bar; linear: every law is linear; damped: some damping time is not zero; knot_drag: (n,) kg/m,
     1/2 rho C_D pi/4 d_k^2; knot_mass: (n,) kg, isotropic: half of each bar, the knot and its added mass; weight: (n, 3)
     N, weight less buoyancy and dead load; free: (n,) 1 where free, 0 where held.
-    plain: all drag coefficients are constant. If not: bar_reynolds: (m,) s/m, thickness over viscosity; bar_reference:
-    (m,) C_n that normal_drag holds; bar_curve: (m,) which of bar_curves (k, INTERVALS, ROW); friction, angles: see
+    plain: all drag coefficients are constant. If not: bar_reynolds: (m,) s/m, thickness over viscosity; bar_curve: (m,)
+     which of bar_curves (k, INTERVALS, ROW); friction, angles: see
     system.curves.BarCurves; knot_curve: (n,) which of knot_curves (k, INTERVALS, 5), C_D over that in knot_drag.
+    drag_slopes: (4, m), knot_slopes: (n,), where normal_drag, tangential_drag and knot_drag are those of one moment:
+    their slopes, see forces.laws; else (4, 0) and (0,).
     """
 
     knot_a: NDArray[np.uint32]
@@ -47,10 +49,11 @@ class Elements(NamedTuple):
     free: Array
     plain: bool
     bar_reynolds: Array
-    bar_reference: Array
     bar_curve: NDArray[np.int32]
     bar_curves: Array
     friction: float
     angles: Angles
     knot_curve: NDArray[np.int32]
     knot_curves: Array
+    drag_slopes: Array
+    knot_slopes: Array

@@ -57,13 +57,14 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         free=el.free[knots],
         plain=el.plain,
         bar_reynolds=el.bar_reynolds[bars],
-        bar_reference=el.bar_reference[bars],
         bar_curve=el.bar_curve[bars],
         bar_curves=el.bar_curves,
         friction=el.friction,
         angles=el.angles,
         knot_curve=el.knot_curve[knots],
         knot_curves=el.knot_curves,
+        drag_slopes=el.drag_slopes,
+        knot_slopes=el.knot_slopes,
     )
     displaced = Displaced(side * longer * system.displaced.bar[bars], side**2 * system.displaced.knot[knots])
     return replace(
