@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..netting.twine import Twine
-from .fields import Coefficient, Force, Name, Table, Time, Title, Tolerance, Velocity
+from .fields import Coefficient, Force, Length, Name, Table, Time, Title, Tolerance, Velocity
 from .gear import NettingSpec, PanelSpec
 from .quantity import Quantity, wrong
 from .twine import TwineSpec
@@ -39,6 +39,9 @@ class Water(Table):
     )
     gravity: Annotated[float, Quantity(ACCELERATION, 0.0, 1e3)] = Field(
         default=9.81, description="m/s2, downwards"
+    )
+    depth: Length | None = Field(
+        default=None, description="m, from still water to the sea bed; deep water without it", examples=[20.0]
     )
 
 

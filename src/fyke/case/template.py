@@ -6,6 +6,7 @@ _TEMPLATE = """\
 # A case file of fyke. A number is in SI units; a text in quotes may carry a unit:
 #   length m mm cm km um in ft fathom    speed m/s cm/s mm/s kn km/h ft/s    time s ms us min h
 #   pressure Pa kPa MPa GPa N/mm2        density kg/m3 g/cm3 g/l            force N kN mN kgf
+#   angle deg rad, always with its unit
 # The axes: z up with still water at z = 0, x downstream. Lines that start with "# " show what may be added.
 schema = 1
 title = "Knotted nylon panel, 8 x 8 diamond meshes, on a square frame"
@@ -14,6 +15,7 @@ title = "Knotted nylon panel, 8 x 8 diamond meshes, on a square frame"
 density = 1000.0                     # kg/m3
 kinematic_viscosity = 1.0e-6         # m2/s, for Reynolds numbers
 gravity = 9.81                       # m/s2
+# depth = 20.0                       # m, to the sea bed; deep water without it
 
 [current]
 velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]
