@@ -21,6 +21,8 @@ Time = Annotated[float, Quantity(TIME, 0.0, 1e7, open_below=True)]
 # A bare number would be radians, and people mean degrees.
 Angle = Annotated[float, Quantity(ANGLE, -10.0, 10.0, unit_needed=True)]
 Coefficient = Annotated[float, Quantity(None, 0.0, 100.0)]
+Factor = Annotated[float, Quantity(None, 0.0, 100.0, open_below=True)]
+Share = Annotated[float, Quantity(None, 0.0, 1.0, open_below=True)]
 Tolerance = Annotated[float, Quantity(None, 0.0, 0.1, open_below=True)]
 Component = Annotated[float, Quantity(None, -1e6, 1e6)]
 

@@ -52,10 +52,22 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
 knots = { law = "constant", drag = 1.0 }                       # on pi d^2 / 4
+# Or published laws, alone by their word or with their parameters; fyke laws lists them, their ranges and sources.
+# bars = "choo-casarella"            # or takagi, bessonneau-marichal, wan
+# bars = { law = "ns-cheng", tangential = 0.05 }    # or kristiansen-faltinsen, white, sucker-brauer: none along a bar
+# bars = { law = "cifuentes-kim", solidity = 0.2 }  # as hung, where you leave it out
+# bars = { law = "hoerner", across = 1.1, friction = 0.02 }
+# bars = { law = "table", file = "drag.csv" }       # columns reynolds,normal,tangential; angle-table: by angle too
+# knots = { law = "schiller-naumann", shape = 1.2 } # or clift-gauvin, clift-grace-weber
+# kind = "screens"                   # drag of whole meshes, not of bars and knots, by one of the laws of panels:
+# screens = { law = "kristiansen-faltinsen", series = "simple" }    # or aarsnes, loland, balash, fridman, bi, lee
 
 [added_mass]                         # over the mass of the displaced water
-bars = 1.0                           # across the bar only
+bars = 1.0                           # C_a, across the bar only
 knots = 0.5
+# bars = { law = "constant", inertia = 2.0 }        # where you know the inertia coefficient 1 + C_a
+# bars = "lee"                       # sine of the angle between bar and flow; or potential-flow
+# bars = { law = "table", angle = ["0 deg", "90 deg"], coefficient = [0.1, 1.0] }    # or a file by angle
 
 [solve]
 kind = "static"                      # static | dynamic

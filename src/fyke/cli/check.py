@@ -31,14 +31,13 @@ from .show import (
 def check_case(file: Path, *, json: bool) -> int:
     """Judge a case file, print what would be built and return the exit code."""
     try:
-        case = load_case(file)
+        findings = judge(load_case(file))
     except CaseError as error:
         if json:
             print_json(problems_as_json(error.problems))
         else:
             print_problems(error.problems)
         return WRONG_INPUT
-    findings = judge(case)
     if json:
         print_json(findings)
     else:

@@ -7,12 +7,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..case.errors import CaseError, Problem
 from ..case.schema import Case
 from ..netting.net import Net
 from ..netting.panel import panel
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
+from ..water.laws.bars import ConstantBar
+from ..water.laws.knots import ConstantKnot
 from .elements import Elements
 from .system import System
 
@@ -78,15 +81,23 @@ def build_system(net: Net, case: Case) -> System:
         net,
         current=case.current.velocity,
         water=Water(water.density, water.kinematic_viscosity, water.gravity),
-        coefficients=Coefficients(
-            bar_normal=case.drag.bars.normal,
-            bar_tangential=case.drag.bars.tangential,
-            knot=case.drag.knots.drag,
-            added_mass_bar=case.added_mass.bars,
-            added_mass_knot=case.added_mass.knots,
-        ),
+        coefficients=_coefficients(case),
     )
     return replace(system, case_text=case.text)
+
+
+def _coefficients(case: Case) -> Coefficients:
+    """Coefficients of a case; CaseError for a law that is more than numbers, which nothing computes with yet."""
+    bars = case.drag.bar_law(solidity=case.solidity, folder=case.folder)
+    knots, mass = case.drag.knot_law(), case.added_mass.bar_law(folder=case.folder)
+    if not (isinstance(bars, ConstantBar) and isinstance(knots, ConstantKnot) and mass.constant) or (
+        case.drag.kind != "bars"
+    ):
+        found, cure = "a law that changes with speed or angle", "take constant coefficients"
+        allowed = "constant laws; the others can be compared and drawn by fyke laws"
+        raise CaseError([Problem("[drag] and [added_mass]", found, allowed, cure)])
+    across = float(mass.coefficient(0.0))
+    return Coefficients(bars.normal, bars.tangential, knots.drag, across, case.added_mass.knot_coefficient())
 
 
 def make_system(
