@@ -164,6 +164,11 @@ def test_template_is_the_example_panel_and_shows_every_key():
 def test_every_commented_line_of_the_template_can_be_used(tmp_path):
     (tmp_path / "measured.csv").write_text("knot,x,y,z\n")
     lines = template().splitlines()
+    waves = lines.index("# [waves]")
+    irregular, after = (
+        lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
+        lines.index("", waves),
+    )
     for number, line in enumerate(lines):
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(("The", "A ", "For")):
             continue
@@ -173,6 +178,11 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [
                 old for old in shown if not old.startswith({"law": "youngs", "hanging_ratio": "size"}[key])
             ]
+        if waves < number < after:
+            size = ('kind = "jonswap"', "significant_height = 1.0", 'peak_period = "6 s"')
+            size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')
+            needed = [one for one in size if not one.startswith(f"{key} =")]
+            shown = [*lines[:waves], "[waves]", *needed, line[2:], *lines[after:]]
         if key in ("bars", "knots"):
             (tmp_path / "drag.csv").write_text("reynolds,normal,tangential\n10,2,0.1\n1000,1,0.1\n")
             before = max(i for i, old in enumerate(lines[:number]) if old.startswith(f"{key} ="))

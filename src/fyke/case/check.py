@@ -18,8 +18,9 @@ from .fields import Table
 from .gear import NettingSpec, PanelSpec
 from .keys import nearest
 from .places import Path
-from .schema import Compare, DynamicSolve, Output
+from .schema import Compare, DynamicSolve, Output, Water
 from .twine import TableSpec, TwineSpec
+from .waves import wave_findings
 from .written import written
 
 LARGEST_STRAIN = 0.2  # of the unloaded flat panel
@@ -93,6 +94,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _compare(parts)
     yield from _solidities(parts)
     yield from added_mass_findings(parts.raw)
+    yield from _waves(parts)
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -289,3 +291,9 @@ def _solidities(parts: Parts) -> Iterator[Finding]:
         allowed = f'one solidity for the law "{drag.bars.law}" of all bars'
         cure = f'write bars = {{ law = "{drag.bars.law}", solidity = {min(found)} }} with the one that counts'
         yield ("drag", "bars"), told, allowed, cure
+
+
+def _waves(parts: Parts) -> Iterator[Finding]:
+    water = _valid(Water, parts.raw.get("water", {}))
+    if water is not None and "waves" in parts.raw:
+        yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)

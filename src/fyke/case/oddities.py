@@ -7,13 +7,21 @@ from collections.abc import Iterator
 from ..netting.lattice import flat_strain, hanging_ratios
 from .check import LARGEST_STRAIN
 from .schema import Case
+from .waves import wave_oddities
 
 LEAST_HANGING = 0.05
 
 
 def warnings(case: Case) -> tuple[str, ...]:
     """Return one sentence for everything that looks odd in a checked case."""
-    return (*_floating(case), *_thin_knots(case), *_frames(case), *_unused(case), *_no_effect(case))
+    return (
+        *_floating(case),
+        *_thin_knots(case),
+        *_frames(case),
+        *_unused(case),
+        *_no_effect(case),
+        *_waves(case),
+    )
 
 
 def _floating(case: Case) -> Iterator[str]:
@@ -73,3 +81,12 @@ def _no_effect(case: Case) -> Iterator[str]:
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
+
+
+def _waves(case: Case) -> Iterator[str]:
+    if case.waves is None:
+        if "probes" in case.output.model_fields_set:
+            yield "[output] probes plays no part without [waves]."
+        return
+    static = case.solve.kind == "static"
+    yield from wave_oddities(case.waves, depth=case.water.depth, gravity=case.water.gravity, static=static)

@@ -12,11 +12,12 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 from ..netting.twine import Twine
 from .added_mass import AddedMass
 from .drag import Drag, hung_solidity
-from .fields import Force, Length, Name, Table, Time, Title, Tolerance, Velocity
+from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance, Velocity
 from .gear import NettingSpec, PanelSpec
 from .quantity import Quantity, wrong
 from .twine import TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
+from .waves import WavesSpec
 
 
 def _static_by_default(value: Any) -> Any:
@@ -99,6 +100,11 @@ class Output(Table):
     every: Time | None = Field(
         default=None, description="s between outputs, a hundredth of the duration by default", examples=[0.02]
     )
+    probes: Annotated[tuple[Point, ...], Field(max_length=1000)] = Field(
+        default=((0.0, 0.0, 0.0),),
+        description="m, points at which a run in waves writes the motion of the water",
+        examples=[[[0.0, 0.0, -1.0]]],
+    )
 
 
 class Compare(Table):
@@ -122,6 +128,7 @@ class Case(Table):
     title: Title = Field(default="", description="one line for figures and reports")
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
+    waves: WavesSpec | None = Field(default=None, description="the waves")
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )

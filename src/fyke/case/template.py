@@ -20,6 +20,22 @@ gravity = 9.81                       # m/s2
 [current]
 velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]
 
+# [waves]
+# kind = "airy"                      # airy | stokes2 | jonswap | pierson-moskowitz
+# height = 1.0                       # m, crest to trough; height, period and phase are of regular waves
+# period = "6 s"
+# phase = "0 deg"
+# direction = "0 deg"                # in which they go, from +x turning to +y
+# ramp = "10 s"                      # over which the waves grow from nothing
+# stretching = "wheeler"             # wheeler | none; stokes2 has none of it
+# For kind = "jonswap" or "pierson-moskowitz":
+# significant_height = 1.0           # m
+# peak_period = "6 s"
+# gamma = 3.3                        # of jonswap; by Tp / sqrt(Hs) without it
+# components = 200
+# seed = 1                           # the same seed gives the same sea
+# spreading = { exponent = 10, directions = 15 }
+
 [twine.main]                         # any number of twines, each with a name
 material = "PA"                      # PA, PES, PP, PE or UHMWPE: density and modulus where you give none
 density = 1140.0                     # kg/m3
@@ -83,6 +99,7 @@ kind = "static"                      # static | dynamic
 
 [output]
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
+# probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
 
 # [compare]                          # measured positions to lay over the result
 # positions = "measured.csv"         # beside this file; columns knot,x,y,z (m), knot as "row-column"

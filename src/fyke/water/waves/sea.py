@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..ramp import ramp
-from .kernel import elevation_of, motion_of
 
 Array = NDArray[np.float64]
 
@@ -108,6 +107,9 @@ class Waves:
         that of the stretching itself is left out, as is usual. It is of the order of the wave's slope, and at the
         surface the convective term w du/dz, which is left out too, balances it.
         """
+        # Here, because numba loads slowly, and reading a case needs none of it.
+        from .kernel import motion_of
+
         points = np.ascontiguousarray(points, dtype=float)
         moved = Motion(np.empty_like(points), np.empty_like(points), np.empty(len(points)))
         surface = (
@@ -122,6 +124,8 @@ class Waves:
 
     def elevation(self, points: Array, time: float) -> Array:
         """Return the elevation (n,) m of the surface above z = 0 at the x and y of points (n, 3) m, and a time (s)."""
+        from .kernel import elevation_of
+
         points = np.ascontiguousarray(points, dtype=float)
         elevation = np.empty(len(points))
         elevation_of(points, self.harmonics, self._turns(time), self._growth(time)[0], elevation)
