@@ -88,5 +88,5 @@ def _waves(case: Case) -> Iterator[str]:
         if "probes" in case.output.model_fields_set:
             yield "[output] probes plays no part without [waves]."
         return
-    static = case.solve.kind == "static"
-    yield from wave_oddities(case.waves, depth=case.water.depth, gravity=case.water.gravity, static=static)
+    water, duration = case.water, case.solve.duration if case.solve.kind == "dynamic" else None
+    yield from wave_oddities(case.waves, depth=water.depth, gravity=water.gravity, duration=duration)

@@ -258,10 +258,14 @@ def wave_findings(waves: object, depth: float | None, gravity: float) -> Iterato
         yield ("waves", key), found, allowed, "make the waves lower or the period longer; check the units"
 
 
-def wave_oddities(spec: WavesSpec, *, depth: float | None, gravity: float, static: bool) -> Iterator[str]:
-    """Say what looks odd about the waves of a checked case."""
-    if static:
+def wave_oddities(
+    spec: WavesSpec, *, depth: float | None, gravity: float, duration: float | None
+) -> Iterator[str]:
+    """Say what looks odd about the waves of a checked case; duration: s, of the run, None for a static case."""
+    if duration is None:
         yield '[waves] plays no part in a static case; solve with kind = "dynamic" to have them.'
+    elif spec.ramp > duration:
+        yield f"The ramp of the waves takes {spec.ramp:g} s, longer than the run of {duration:g} s: they never grow up."
     yield from spec.sea(depth, gravity).warnings
 
 
