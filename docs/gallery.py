@@ -42,7 +42,7 @@ from fyke.results import compare
 
 case = fyke.load_case("examples/panel.toml")
 system = fyke.build_system(fyke.build_net(case), case)
-current = case.current.velocity
+current = case.current.at_surface
 result = fyke.solve_static(system)
 run = fyke.simulate(system, duration=0.3, every=0.002, stepper=fyke.Symplectic())
 """

@@ -256,7 +256,7 @@ WRONG = {
 
 @pytest.mark.parametrize(("text", "pieces"), WRONG.values(), ids=WRONG)
 def test_wrong_input(text, pieces):
-    problem = problems_of(text)[0]
+    problem = min(problems_of(text), key=lambda one: pieces[0] not in one.where)
     parts = (problem.where, problem.found, problem.allowed, problem.cure)
     assert all(piece in part for piece, part in zip(pieces, parts, strict=True)), problem
 

@@ -20,6 +20,7 @@ from .keys import nearest
 from .places import Path
 from .schema import Compare, DynamicSolve, Output, Water
 from .twine import TableSpec, TwineSpec
+from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
@@ -95,16 +96,19 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _solidities(parts)
     yield from added_mass_findings(parts.raw)
     yield from _waves(parts)
+    yield from current_findings(parts)
+    yield from sea_bed_findings(parts)
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
-    """Every fault of the files that a case takes its laws from, with the key that names the file."""
-    for table, problems in (
-        ("drag", drag_file_problems(parts.raw, parts.folder)),
-        ("added_mass", added_mass_file_problems(parts.raw, parts.folder)),
+    """Every fault of the files that a case takes its laws and its current from, with the key that names the file."""
+    for key, problems in (
+        (("current", "file"), current_file_problems(parts)),
+        (("drag", "bars", "file"), drag_file_problems(parts.raw, parts.folder)),
+        (("added_mass", "bars", "file"), added_mass_file_problems(parts.raw, parts.folder)),
     ):
         for number, problem in enumerate(problems):
-            yield (table, "bars", "file", number), problem
+            yield (*key, number), problem
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:

@@ -11,7 +11,6 @@ from pathlib import Path
 from .errors import Problem
 
 Allowed = tuple[str, float, float]  # what a column may hold: words, lowest, highest
-_DIGITS = 9  # of the places of a table; closer ones would make a step of no width
 
 
 @dataclass(frozen=True)
@@ -24,10 +23,15 @@ class Row:
 
 @dataclass(frozen=True)
 class Layout:
-    """Columns that a file may have; places: how many of them, from the left, say where; they rise, the last fastest."""
+    """Columns that a file may have.
+
+    places: how many of them, from the left, say where; they rise, the last fastest; digits: how many significant ones
+    the places keep, closer ones would make a step of no width.
+    """
 
     columns: tuple[str, ...]
     places: int
+    digits: int = 9
 
 
 def read_columns(
@@ -61,7 +65,7 @@ def read_columns(
         faults = list(_faults(where, layout.columns, texts, allowed))
         problems += faults
         if not faults:
-            places = (float(f"{float(text):.{_DIGITS}g}") for text in texts[: layout.places])
+            places = (float(f"{float(text):.{layout.digits}g}") for text in texts[: layout.places])
             rows.append(Row(where, (*places, *map(float, texts[layout.places :]))))
     return layout, rows
 

@@ -92,7 +92,8 @@ def cure_for_unknown(key: str, table: type[Table]) -> str:
 
 def example(table: type[Table]) -> str:
     """Return the keys that a table must have, with values to start from."""
-    needed = [(key, field) for key, field in fields_of(table).items() if field.is_required()]
+    keys = list(fields_of(table).items())
+    needed = [(key, field) for key, field in keys if field.is_required()] or keys[:1]
     return ", ".join(assignment(key, (field.examples or ["..."])[0]) for key, field in needed)
 
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from ..netting.lattice import flat_strain, hanging_ratios
 from .check import LARGEST_STRAIN
 from .schema import Case
+from .water_check import current_oddities
 from .waves import wave_oddities
 
 LEAST_HANGING = 0.05
@@ -21,6 +22,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_unused(case),
         *_no_effect(case),
         *_waves(case),
+        *current_oddities(case),
     )
 
 

@@ -11,8 +11,9 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..netting.twine import Twine
 from .added_mass import AddedMass
+from .current import Current
 from .drag import Drag, hung_solidity
-from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance, Velocity
+from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec
 from .quantity import Quantity, wrong
 from .twine import TwineSpec
@@ -46,12 +47,6 @@ class Water(Table):
     depth: Length | None = Field(
         default=None, description="m, from still water to the sea bed; deep water without it", examples=[20.0]
     )
-
-
-class Current(Table):
-    """The current, the same everywhere."""
-
-    velocity: Velocity = Field(description="m/s, three components", examples=[[0.5, 0.0, 0.0]])
 
 
 class StaticSolve(Table):
@@ -156,6 +151,7 @@ class Case(Table):
         for number, panel in enumerate(self.gear, 1):
             if panel.netting in self.netting:
                 panel.settle(str(number) if len(self.gear) > 1 else "", self.netting[panel.netting])
+        self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
     def text(self) -> str:

@@ -18,7 +18,17 @@ gravity = 9.81                       # m/s2
 # depth = 20.0                       # m, to the sea bed; deep water without it
 
 [current]
-velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]
+velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]; or, instead of it:
+# speed = 0.5                        # m/s, and the direction in which the water goes, from +x turning to +y
+# direction = "15 deg"
+# By depth, m below the surface: a power law from the velocity there to the sea bed (depth in [water]); or, instead of
+# velocity, layers that hold down to the next, or a table that is straight between its depths:
+# profile = { kind = "power", exponent = 0.143 }
+# profile = { kind = "layers", depth = [0, 5], velocity = [[0.5, 0, 0], [0.3, 0, 0]] }
+# profile = { kind = "table", depth = [0, 10], speed = [0.5, 0.3], direction = ["0 deg", "20 deg"] }
+# file = "current.csv"               # instead of velocity: columns time,u,v,w or time,depth,u,v,w; or netCDF
+# at = "3 h"                         # time of the file at which the run begins, its first by default
+# ramp = "10 s"                      # smooth start of a dynamic case from rest
 
 # [waves]
 # kind = "airy"                      # airy | stokes2 | jonswap | pierson-moskowitz

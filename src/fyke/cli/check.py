@@ -16,6 +16,7 @@ from ..netting.net import Net, Panel
 from ..results.ranges import LawsInUse, bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
 from ..system.system import System
+from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from .show import (
@@ -56,15 +57,16 @@ def judge(case: Case) -> dict[str, Any]:
 
     mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each, lengths in m, areas in m2,
     mass_per_area in kg/m2, rtex in tex; strain: largest of the flat panel, negative where all bars are slack;
-    reynolds: speed of the current times twine diameter over viscosity; reynolds_across: least and largest by the speed
-    across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest retardation time (s).
+    reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
+    largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
+    retardation time (s).
     drag: the laws by their words; out_of_range: at how many bars, knots or panels they leave their ranges in the
     undisturbed current.
     """
     net = build_net(case)
     system = build_system(net, case)
     measures, laws = measure_net(net), laws_of(case)
-    water = system.current.velocity(net.positions, 0.0)
+    water = at_full_strength(system.current).velocity(net.positions, 0.0)
     numbers = (
         bar_values(net, net.positions, water, ConstantBar(), laws.viscosity)[REYNOLDS],
         knot_values(net, water, laws.viscosity)[REYNOLDS],
@@ -78,7 +80,8 @@ def judge(case: Case) -> dict[str, Any]:
         "solve": case.solve.kind,
         **asdict(measures),
         "weight_in_water": system.weight_in_water,
-        "current": list(case.current.velocity),
+        "current": list(case.current.at_surface),
+        "current_words": case.current.described,
         "drag": {
             key: law.name
             for key, law in (("bars", laws.bars), ("knots", laws.knots), ("screens", laws.panels))
@@ -124,7 +127,7 @@ def _panel(case: Case, system: System, panel: Panel, across: Array, at_knots: Ar
     net, twine = system.net, case.twine[panel.twine]
     spec = next(one for one in case.gear if one.name == panel.name)
     mesh = case.netting[spec.netting].mesh
-    speed = float(np.linalg.norm(case.current.velocity))
+    speed = float(np.linalg.norm(case.current.at_surface))
     return {
         "name": panel.name,
         "netting": spec.netting,
@@ -147,7 +150,7 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     sinks = "sinks" if findings["weight_in_water"] >= 0.0 else "floats"
     rows = [
         ("solve", findings["solve"]),
-        ("current", vector(findings["current"], "m/s")),
+        ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
         ("drag", ", ".join(f"{what}: {law}" for what, law in findings["drag"].items())),

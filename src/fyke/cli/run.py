@@ -210,7 +210,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         result,
         title=case.title,
         case_sha256=case.sha256,
-        current_direction=case.current.velocity,
+        current_direction=case.current.at_surface,
         audit=audit(system, result),
     )
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
@@ -226,7 +226,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
 def _draw(case: Case, result: Result, folder: Path, comparison: Comparison | None) -> list[Path]:
     from ..report.figures import draw_all
 
-    return draw_all(result, folder, comparison=comparison, current=case.current.velocity)
+    return draw_all(result, folder, comparison=comparison, current=case.current.at_surface)
 
 
 def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Path) -> None:

@@ -79,7 +79,7 @@ def build_system(net: Net, case: Case) -> System:
     water = case.water
     system = make_system(
         net,
-        current=case.current.velocity,
+        current=case.current.flow(),
         water=Water(water.density, water.kinematic_viscosity, water.gravity),
         coefficients=_coefficients(case),
     )
