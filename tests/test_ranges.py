@@ -170,3 +170,16 @@ def test_check_tells_laws_and_reynolds_numbers_and_warns(tmp_path):
     assert found["panels"][0]["reynolds_knots"] == pytest.approx(1750.0)
     shown = CliRunner().invoke(app, ["check", str(file)], catch_exceptions=False).stdout
     assert "bars: constant, knots: constant" in shown and "618.5 across the bars, 1750 at the knots" in shown
+
+
+def test_a_run_tells_what_lay_outside_in_its_summary(tmp_path, monkeypatch):
+    # 0.5 m/s, twine of 1.5 mm: Re = 750 across the flat panel's bars; White's law begins at 1 and ends at 2e5.
+    thick = LawsInUse(White(), None, None, 1e-9)  # m2/s, so that Re is 7.5e5
+    monkeypatch.setattr("fyke.cli.run.laws_of", lambda case: thick)
+    command = ["run", str(PANEL), "-o", str(tmp_path / "out"), "--json", "--no-figures"]
+    told = json.loads(CliRunner().invoke(app, command, catch_exceptions=False).stdout)
+    assert told["out_of_range"] == {"bars": {"white": {"Re": 256}}}
+    (sentence,) = told["warnings"]
+    assert "at 256 of 256 bars" in sentence and sentence.endswith("above its limit of 2e+05")
+    # No bar of the bag stands better across the flow than those of the flat panel, and the best nearly so.
+    assert 7.3e5 < float(sentence.split("Re = ")[1].split(",")[0]) <= 7.5e5

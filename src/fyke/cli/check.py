@@ -13,7 +13,7 @@ from ..case import Case, CaseError, load_case
 from ..netting.lattice import flat_strain
 from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Net, Panel
-from ..results.ranges import LawsInUse, bar_values, knot_values, out_of_range
+from ..results.ranges import bar_values, knot_values, laws_of, out_of_range
 from ..system.build import build_net, build_system
 from ..system.system import System
 from ..water.current import at_full_strength
@@ -82,6 +82,7 @@ def judge(case: Case) -> dict[str, Any]:
         "weight_in_water": system.weight_in_water,
         "current": list(case.current.at_surface),
         "current_words": case.current.described,
+        "waves": case.waves.described if case.waves else None,
         "drag": {
             key: law.name
             for key, law in (("bars", laws.bars), ("knots", laws.knots), ("screens", laws.panels))
@@ -92,15 +93,6 @@ def judge(case: Case) -> dict[str, Any]:
         "out_of_range": outside.counts,
         "case_sha256": case.sha256,
     }
-
-
-def laws_of(case: Case) -> LawsInUse:
-    """Return the laws of a case: those of bars and knots, or that of screens in their place."""
-    screens, viscosity = case.drag.panel_law(), case.water.kinematic_viscosity
-    if screens is not None:
-        return LawsInUse(None, None, screens, viscosity)
-    bars = case.drag.bar_law(solidity=case.solidity, folder=case.folder)
-    return LawsInUse(bars, case.drag.knot_law(), None, viscosity)
 
 
 def _as_screens(net: Net, flow: Array, viscosity: float) -> tuple[Array, Array, Array]:
@@ -151,6 +143,7 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     rows = [
         ("solve", findings["solve"]),
         ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
+        *([("waves", findings["waves"])] if findings["waves"] else []),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
         ("drag", ", ".join(f"{what}: {law}" for what, law in findings["drag"].items())),

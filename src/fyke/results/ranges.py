@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..case.schema import Case
 from ..netting.net import Net
 from ..solve.result import Result
 from ..water.laws import AngleLaw, BarLaw, KnotLaw, PanelLaw, Range
@@ -35,6 +36,15 @@ class LawsInUse:
     knots: KnotLaw | None
     panels: PanelLaw | None
     viscosity: float
+
+
+def laws_of(case: Case) -> LawsInUse:
+    """Return the laws of a case: those of bars and knots, or that of screens in their place."""
+    screens, viscosity = case.drag.panel_law(), case.water.kinematic_viscosity
+    if screens is not None:
+        return LawsInUse(None, None, screens, viscosity)
+    bars = case.drag.bar_law(solidity=case.solidity, folder=case.folder)
+    return LawsInUse(bars, case.drag.knot_law(), None, viscosity)
 
 
 @dataclass(frozen=True)
