@@ -37,12 +37,14 @@ from fyke.report.figures import (
     shape_comparison,
     tension_histogram,
     tension_plan,
+    wave_histories,
 )
-from fyke.results import compare
+from fyke.results import compare, probe
+from fyke.water.waves import irregular
 
 case = fyke.load_case("examples/panel.toml")
 system = fyke.build_system(fyke.build_net(case), case)
-current = case.current.velocity
+current = case.current.at_surface
 result = fyke.solve_static(system)
 run = fyke.simulate(system, duration=0.3, every=0.002, stepper=fyke.Symplectic())
 """
@@ -62,6 +64,12 @@ for knot in np.flatnonzero(~result.net.fixed)[::2]:
 Path("measured.csv").write_text("\\n".join(rows), encoding="utf-8")
 shape_comparison(result, compare(result, "measured.csv"))""",
         "For want of a measurement, computed places rounded to 5 mm stand in for it here.",
+    ),
+    "wave_histories": (
+        """sea = irregular(1.0, 6.0, gamma=3.3, depth=30.0, ramp=10.0)
+times, points = np.linspace(0.0, 60.0, 301), [[0.0, 0.0, -2.0], [8.0, 0.0, -2.0]]
+wave_histories(probe(system.current, sea, times, points))""",
+        "Written as `waves` by a run in waves: the elevation at its probes, the velocity of the water at the first.",
     ),
 }
 

@@ -163,9 +163,17 @@ def test_template_is_the_example_panel_and_shows_every_key():
 
 def test_every_commented_line_of_the_template_can_be_used(tmp_path):
     (tmp_path / "measured.csv").write_text("knot,x,y,z\n")
+    (tmp_path / "current.csv").write_text("time,u,v,w\n10800,0.5,0,0\n21600,0.6,0,0\n")
+    # What else a commented line needs, and what it stands instead of.
+    beside = {"speed": "direction", "direction": "speed", "at": "file"}
     lines = template().splitlines()
+    waves = lines.index("# [waves]")
+    irregular, after = (
+        lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
+        lines.index("", waves),
+    )
     for number, line in enumerate(lines):
-        if not line.startswith("# ") or "=" not in line or line[2:].startswith(("The", "A ", "For")):
+        if not line.startswith("# ") or "=" not in line or line[2:].startswith(("The", "A ", "For", "By")):
             continue
         key = line[2:].split("=")[0].strip()
         shown = [line[2:] if i == number else old for i, old in enumerate(lines)]
@@ -173,6 +181,25 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [
                 old for old in shown if not old.startswith({"law": "youngs", "hanging_ratio": "size"}[key])
             ]
+        if waves < number < after:
+            size = ('kind = "jonswap"', "significant_height = 1.0", 'peak_period = "6 s"')
+            size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')
+            needed = [one for one in size if not one.startswith(f"{key} =")]
+            shown = [*lines[:waves], "[waves]", *needed, line[2:], *lines[after:]]
+        if key in ("bars", "knots"):
+            (tmp_path / "drag.csv").write_text("reynolds,normal,tangential\n10,2,0.1\n1000,1,0.1\n")
+            before = max(i for i, old in enumerate(lines[:number]) if old.startswith(f"{key} ="))
+            shown[before] = ""
+        if (
+            number < waves
+            and key in ("speed", "direction", "file", "at", "profile")
+            and '"power"' not in line
+        ):
+            shown = [old for old in shown if not old.startswith("velocity")]
+            needed = next((i for i, old in enumerate(shown) if old.startswith(f"# {beside.get(key)} =")), 0)
+            shown[needed] = shown[needed].removeprefix("# " * bool(needed))
+        if '"power"' in line:
+            shown = [old.replace("# depth =", "depth =") for old in shown]
         if key == "positions":
             shown = [old.replace("# [compare]", "[compare]") for old in shown]
         if key in ("duration", "stepper", "rtol", "atol", "max_step", "settle_force", "settle_energy"):

@@ -13,7 +13,6 @@ from typer.testing import CliRunner
 from fyke.case import CaseError
 from fyke.case.drag_table import read_drag_table
 from fyke.cli.app import app
-from fyke.cli.laws import in_case_files
 from fyke.report.laws import drag_laws
 from fyke.water.laws import LAWS, AngleTable, BarTable, measured
 
@@ -41,32 +40,16 @@ def test_every_law_is_listed_in_80_columns(monkeypatch):
     for laws in LAWS.values():
         for name in laws:
             assert any(line.startswith(f"  {name}  ") for line in lines), name
-    assert [line.split()[0] for line in lines if line.endswith("(in case files)")] == ["constant", "constant"]
 
 
-def test_json_tells_the_same_and_which_a_case_takes():
+def test_json_tells_the_same():
     told = json.loads(fyke("--json").stdout)
     assert {kind: [law["name"] for law in laws] for kind, laws in told.items()} == {
         kind: list(laws) for kind, laws in LAWS.items()
     }
-    assert in_case_files() == {"bars": {"constant"}, "knots": {"constant"}}
     choo = told["bars"][1]
     assert choo["range"] == ["Re up to 1e+07"] and choo["area"] == "d l" and "126-131, 1971" in choo["source"]
-    assert choo["in_case_file"] is False and told["bars"][0]["in_case_file"] is True
     assert told["panels"][2]["parameters"] == {"series": "simple"}
-
-
-def test_laws_of_a_case_are_read_from_its_schema(monkeypatch):
-    """A further law in the schema, told apart by its word, is seen without another list of names."""
-
-    def model(word):
-        return {"properties": {"law": {"const": word}}}
-
-    told = {"oneOf": [{"$ref": "#/$defs/A"}, {"$ref": "#/$defs/B"}]}
-    drag = {"properties": {"bars": told, "knots": {"$ref": "#/$defs/A"}}}
-    schema = {"$defs": {"A": model("constant"), "B": model("takagi"), "Drag": drag}}
-    monkeypatch.setattr("fyke.cli.laws.json_schema", lambda: schema)
-    assert in_case_files() == {"bars": {"constant", "takagi"}, "knots": {"constant"}}
 
 
 def test_plot_writes_both_pictures_and_never_over_others(tmp_path):

@@ -11,12 +11,17 @@ from pydantic import ValidationError
 
 from ..netting.lattice import flat_strain
 from ..netting.twine import MATERIALS
+from .added_mass import added_mass_file_problems, added_mass_findings
+from .drag import Drag, drag_file_problems, hung_solidity
+from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, PanelSpec
 from .keys import nearest
 from .places import Path
-from .schema import Compare, DynamicSolve, Output
+from .schema import Compare, DynamicSolve, Output, Water
 from .twine import TableSpec, TwineSpec
+from .water_check import current_file_problems, current_findings, sea_bed_findings
+from .waves import wave_findings
 from .written import written
 
 LARGEST_STRAIN = 0.2  # of the unloaded flat panel
@@ -88,6 +93,22 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)
+    yield from _solidities(parts)
+    yield from added_mass_findings(parts.raw)
+    yield from _waves(parts)
+    yield from current_findings(parts)
+    yield from sea_bed_findings(parts)
+
+
+def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
+    """Every fault of the files that a case takes its laws and its current from, with the key that names the file."""
+    for key, problems in (
+        (("current", "file"), current_file_problems(parts)),
+        (("drag", "bars", "file"), drag_file_problems(parts.raw, parts.folder)),
+        (("added_mass", "bars", "file"), added_mass_file_problems(parts.raw, parts.folder)),
+    ):
+        for number, problem in enumerate(problems):
+            yield (*key, number), problem
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:
@@ -257,3 +278,26 @@ def _compare(parts: Parts) -> Iterator[Finding]:
             "a CSV file that can be read",
             cure,
         )
+
+
+def _solidities(parts: Parts) -> Iterator[Finding]:
+    drag = _valid(Drag, parts.raw.get("drag", {}))
+    if drag is None or not drag.takes_solidity:
+        return
+    found = set()
+    for panel in parts.panels.values():
+        netting = parts.nettings.get(panel.netting)
+        twine = parts.twines.get(netting.twine) if netting else None
+        if netting and twine and (panel.given_size is None) != (panel.hanging_ratio is None):
+            found.add(f"{hung_solidity(panel, netting, twine.diameter):.3g}")
+    if len(found) > 1:
+        told = f"none, and panels of solidity {' and '.join(sorted(found))}"
+        allowed = f'one solidity for the law "{drag.bars.law}" of all bars'
+        cure = f'write bars = {{ law = "{drag.bars.law}", solidity = {min(found)} }} with the one that counts'
+        yield ("drag", "bars"), told, allowed, cure
+
+
+def _waves(parts: Parts) -> Iterator[Finding]:
+    water = _valid(Water, parts.raw.get("water", {}))
+    if water is not None and "waves" in parts.raw:
+        yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)

@@ -13,6 +13,8 @@ from .places import Path, Places
 from .quantity import WRONG
 from .written import assignment, written
 
+_FEW = 6  # words that are worth telling twice
+
 Words = tuple[str, str, str]  # found, allowed, cure
 
 
@@ -29,7 +31,7 @@ def explain(error: ValidationError, places: Places) -> tuple[dict[Path, Problem]
         kind = detail["type"]
         misspelled = kind == "missing" and spot.path in meant
         if not misspelled and not _follows_from_another(detail):
-            path = (*spot.path, "kind") if kind == "union_tag_invalid" else spot.path
+            path = (*spot.path, _tag(detail)) if kind == "union_tag_invalid" else spot.path
             problems[path] = Problem(places.at(path), *_WORDS.get(kind, _other)(detail, spot))
     return problems, meant
 
@@ -59,15 +61,21 @@ def _choice(detail: ErrorDetails, spot: Spot) -> Words:
 
 
 def _kind(detail: ErrorDetails, spot: Spot) -> Words:
-    table = detail["input"]
-    if "kind" not in table:
-        return written(table), _alternatives(spot.choices), f'say which kind: kind = "{spot.choices[0]}"'
-    return _one_of(table["kind"], spot.choices)
+    table, tag = detail["input"], _tag(detail)
+    if tag not in table:
+        return written(table), _alternatives(spot.choices), f'say which {tag}: {tag} = "{spot.choices[0]}"'
+    return _one_of(table[tag], spot.choices)
+
+
+def _tag(detail: ErrorDetails) -> str:
+    """Return the key by which several tables are told apart."""
+    return str(detail["ctx"]["discriminator"]).strip("'")
 
 
 def _one_of(value: object, choices: list[str]) -> Words:
     near = nearest(value, choices) if isinstance(value, str) else ""
-    cure = f'did you mean "{near}"?' if near else f"choose {_alternatives(choices)}"
+    few = _alternatives(choices) if len(choices) <= _FEW else "one of these"
+    cure = f'did you mean "{near}"?' if near else f"choose {few}"
     return written(value), _alternatives(choices), cure
 
 

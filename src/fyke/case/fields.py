@@ -8,7 +8,7 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, PlainValidator, WithJsonSchema
 
 from .quantity import Quantity, wrong
-from .units import DENSITY, FORCE, LENGTH, PRESSURE, RATIO, SPEED, TIME
+from .units import ANGLE, DENSITY, FORCE, LENGTH, PRESSURE, RATIO, SPEED, TIME
 
 # The ranges are wide: they catch a wrong unit or a slip of the pen, not an unusual net.
 Length = Annotated[float, Quantity(LENGTH, 0.0, 1e4, open_below=True)]
@@ -18,7 +18,11 @@ Density = Annotated[float, Quantity(DENSITY, 0.0, 1e5, open_below=True)]
 Modulus = Annotated[float, Quantity(PRESSURE, 0.0, 1e13, open_below=True)]
 Force = Annotated[float, Quantity(FORCE, 0.0, 1e9, open_below=True)]
 Time = Annotated[float, Quantity(TIME, 0.0, 1e7, open_below=True)]
+# A bare number would be radians, and people mean degrees.
+Angle = Annotated[float, Quantity(ANGLE, -10.0, 10.0, unit_needed=True)]
 Coefficient = Annotated[float, Quantity(None, 0.0, 100.0)]
+Factor = Annotated[float, Quantity(None, 0.0, 100.0, open_below=True)]
+Share = Annotated[float, Quantity(None, 0.0, 1.0, open_below=True)]
 Tolerance = Annotated[float, Quantity(None, 0.0, 0.1, open_below=True)]
 Component = Annotated[float, Quantity(None, -1e6, 1e6)]
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
+from .by_law import LawTable
 from .fields import Table
 from .places import Path
 from .schema import Case
@@ -38,14 +39,15 @@ class Spot:
 
     @property
     def choices(self) -> list[str]:
-        """The allowed words of a field that is a choice, or of the kind of a table that has several."""
+        """The allowed words of a field that is a choice, or of the key that tells several tables apart."""
         if self.field is None:
             return []
-        return _literals(self.field.annotation) or [_kind(model) for model in _models(self.field.annotation)]
+        models = _models(self.field.annotation)
+        return _literals(self.field.annotation) or [w for model in models for w in _words(model, models)]
 
 
 def follow(location: tuple[str | int, ...]) -> Spot:
-    """Follow a location as pydantic gives it, which names the kind of a table as a step of its own."""
+    """Follow a location as pydantic gives it, where the kind or the law of a table is a step of its own."""
     path: list[str | int] = []
     here: Any = Case
     table: type[Table] = Case
@@ -53,7 +55,7 @@ def follow(location: tuple[str | int, ...]) -> Spot:
     for step in location:
         models = _models(here)
         if len(models) > 1:
-            here = next((model for model in models if _kind(model) == step), None)
+            here = next((model for model in models if step in _words(model, models)), None)
             continue
         if step == "[key]":
             continue
@@ -82,7 +84,7 @@ def cure_for_unknown(key: str, table: type[Table]) -> str:
     """Say which key was meant, or where this one belongs."""
     close = nearest(key, fields_of(table), cutoff=0.8)
     homes = [name for name, model in _tables().items() if key in fields_of(model)]
-    if homes and not close:
+    if homes and not close and not issubclass(table, LawTable):
         return f"'{key}' belongs in {' or '.join(homes)}"
     near = close or nearest(key, fields_of(table))
     return f"did you mean '{near}'?" if near else "leave it out, or choose one of these keys"
@@ -90,7 +92,8 @@ def cure_for_unknown(key: str, table: type[Table]) -> str:
 
 def example(table: type[Table]) -> str:
     """Return the keys that a table must have, with values to start from."""
-    needed = [(key, field) for key, field in fields_of(table).items() if field.is_required()]
+    keys = list(fields_of(table).items())
+    needed = [(key, field) for key, field in keys if field.is_required()] or keys[:1]
     return ", ".join(assignment(key, (field.examples or ["..."])[0]) for key, field in needed)
 
 
@@ -124,8 +127,19 @@ def _literals(annotation: Any) -> list[str]:
     return []
 
 
-def _kind(model: type[Table]) -> str:
-    return _literals(model.model_fields["kind"].annotation)[0]
+def _tag(models: list[type[Table]]) -> str:
+    """Return the key that tells several tables apart: each allows words of its own for it."""
+    for key in fields_of(models[0]):
+        words = [_literals(fields_of(model)[key].annotation) for model in models if key in fields_of(model)]
+        every = [word for some in words for word in some]
+        if len(words) == len(models) and all(words) and len(set(every)) == len(every):
+            return key
+    raise TypeError(f"no key tells {', '.join(model.__name__ for model in models)} apart")
+
+
+def _words(model: type[Table], models: list[type[Table]]) -> list[str]:
+    """Return the words of one of several tables."""
+    return _literals(fields_of(model)[_tag(models)].annotation)
 
 
 def _tables() -> dict[str, type[Table]]:
@@ -140,6 +154,7 @@ def _tables() -> dict[str, type[Table]]:
         else:
             models = _models(field.annotation)
             for model in models:
-                also = f' with kind = "{_kind(model)}"' if len(models) > 1 else ""
+                words = _words(model, models) if len(models) > 1 else []
+                also = f' with {_tag(models)} = "{words[0]}"' if words else ""
                 tables[f"[{key}]{also}"] = model
     return tables

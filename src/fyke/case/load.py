@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from .check import Parts, findings
+from .check import Parts, file_problems, findings
 from .errors import CaseError, Problem
 from .explain import explain
 from .oddities import warnings
@@ -64,9 +64,11 @@ def parse_case(text: str, where: str = "case", *, path: FilePath | None = None) 
         case = Case.model_validate(raw, context=context)
     except ValidationError as error:
         problems, meant = explain(error, places)
-    for key, *words in findings(Parts.of(raw, path.parent if path else FilePath())):
+    parts = Parts.of(raw, path.parent if path else FilePath())
+    for key, *words in findings(parts):
         if key not in meant:
             problems.setdefault(key, Problem(places.at(key), *words))
+    problems |= file_problems(parts)
     if problems or case is None:
         raise CaseError([problems[key] for key in sorted(problems, key=places.line)])
     return Case.model_validate(raw, context={**context, "warnings": warnings(case)})

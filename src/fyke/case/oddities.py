@@ -7,13 +7,23 @@ from collections.abc import Iterator
 from ..netting.lattice import flat_strain, hanging_ratios
 from .check import LARGEST_STRAIN
 from .schema import Case
+from .water_check import current_oddities
+from .waves import wave_oddities
 
 LEAST_HANGING = 0.05
 
 
 def warnings(case: Case) -> tuple[str, ...]:
     """Return one sentence for everything that looks odd in a checked case."""
-    return (*_floating(case), *_thin_knots(case), *_frames(case), *_unused(case), *_no_effect(case))
+    return (
+        *_floating(case),
+        *_thin_knots(case),
+        *_frames(case),
+        *_unused(case),
+        *_no_effect(case),
+        *_waves(case),
+        *current_oddities(case),
+    )
 
 
 def _floating(case: Case) -> Iterator[str]:
@@ -71,5 +81,16 @@ def _unused(case: Case) -> Iterator[str]:
 def _no_effect(case: Case) -> Iterator[str]:
     if case.solve.kind == "dynamic" and "tolerance" in case.solve.model_fields_set:
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
+    if case.drag.kind == "bars" and case.drag.screens is not None:
+        yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
+
+
+def _waves(case: Case) -> Iterator[str]:
+    if case.waves is None:
+        if "probes" in case.output.model_fields_set:
+            yield "[output] probes plays no part without [waves]."
+        return
+    water, duration = case.water, case.solve.duration if case.solve.kind == "dynamic" else None
+    yield from wave_oddities(case.waves, depth=water.depth, gravity=water.gravity, duration=duration)

@@ -24,13 +24,15 @@ def wrong(allowed: str, cure: str) -> PydanticCustomError:
 class Quantity:
     """A number in SI, or a text with a number and a unit when kind has units, within a range.
 
-    kind: None for a number without a unit; least and most: the range in SI; open_below: least is not allowed.
+    kind: None for a number without a unit; least and most: the range in SI; open_below: least is not allowed;
+    unit_needed: a bare number is refused, where people would take it for one in another unit.
     """
 
     kind: Kind | None
     least: float
     most: float
     open_below: bool = False
+    unit_needed: bool = False
 
     @property
     def allowed(self) -> str:
@@ -42,7 +44,9 @@ class Quantity:
             span = f"from {self.least:g} to {self.most:g}{si}"
         if self.kind is None:
             return f"a number {span}"
-        return f"a {self.kind.name} {span}: a number, or a text with one of {', '.join(self.kind.units)}"
+        article = "an" if self.kind.name[0] in "aeiou" else "a"
+        form = "a text" if self.unit_needed else "a number, or a text"
+        return f"{article} {self.kind.name} {span}: {form} with one of {', '.join(self.kind.units)}"
 
     def read(self, value: Any) -> float:
         """Return the value in SI; raise a PydanticCustomError where it is not allowed."""
@@ -62,6 +66,8 @@ class Quantity:
                 raise wrong(self.allowed, error.cure) from None
         if isinstance(value, bool) or not isinstance(value, int | float):
             raise wrong(self.allowed, self._cure_for_type(value))
+        if self.unit_needed and self.kind is not None:
+            raise wrong(self.allowed, f"say in which unit, in quotes: {_with_each_unit(value, self.kind)}")
         try:
             return float(value)
         except OverflowError:
@@ -108,4 +114,10 @@ class Quantity:
             return number
         units = "|".join(sorted(unit.replace("/", "\\/") for unit in self.kind.units))
         text = {"type": "string", "pattern": rf"^\s*[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?\s*({units})\s*$"}
-        return {"anyOf": [number, text]}
+        return text if self.unit_needed else {"anyOf": [number, text]}
+
+
+def _with_each_unit(value: float, kind: Kind) -> str:
+    """Write a number with every unit that it may have been meant in."""
+    shown = f"{value:g}" if abs(value) < 1e300 else "15"
+    return " or ".join(f'"{shown} {unit}"' for unit in kind.units)

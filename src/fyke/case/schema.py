@@ -10,11 +10,15 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..netting.twine import Twine
-from .fields import Coefficient, Force, Name, Table, Time, Title, Tolerance, Velocity
+from .added_mass import AddedMass
+from .current import Current
+from .drag import Drag, hung_solidity
+from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec
 from .quantity import Quantity, wrong
 from .twine import TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
+from .waves import WavesSpec
 
 
 def _static_by_default(value: Any) -> Any:
@@ -40,50 +44,9 @@ class Water(Table):
     gravity: Annotated[float, Quantity(ACCELERATION, 0.0, 1e3)] = Field(
         default=9.81, description="m/s2, downwards"
     )
-
-
-class Current(Table):
-    """The current, the same everywhere."""
-
-    velocity: Velocity = Field(description="m/s, three components", examples=[[0.5, 0.0, 0.0]])
-
-
-class ConstantBarDrag(Table):
-    """Constant coefficients of a bar on the area d * current length."""
-
-    law: Literal["constant"] = Field(description="coefficient law", examples=["constant"])
-    normal: Coefficient = Field(description="of the flow across the bar", examples=[1.2])
-    tangential: Coefficient = Field(description="of the flow along the bar", examples=[0.1])
-
-
-class ConstantKnotDrag(Table):
-    """Constant coefficient of a knot on the area pi d^2 / 4."""
-
-    law: Literal["constant"] = Field(description="coefficient law", examples=["constant"])
-    drag: Coefficient = Field(description="of a sphere", examples=[1.0])
-
-
-# A further law is a further model in these unions, told apart by its law.
-BarDragSpec = ConstantBarDrag
-KnotDragSpec = ConstantKnotDrag
-
-
-class Drag(Table):
-    """Coefficient laws of bars and knots."""
-
-    bars: BarDragSpec = Field(
-        default=ConstantBarDrag(law="constant", normal=1.2, tangential=0.1), description="of the bars"
+    depth: Length | None = Field(
+        default=None, description="m, from still water to the sea bed; deep water without it", examples=[20.0]
     )
-    knots: KnotDragSpec = Field(
-        default=ConstantKnotDrag(law="constant", drag=1.0), description="of the knots"
-    )
-
-
-class AddedMass(Table):
-    """Added mass over the mass of the displaced water."""
-
-    bars: Coefficient = Field(default=1.0, description="of bars, across the bar only")
-    knots: Coefficient = Field(default=0.5, description="of knots, in every direction")
 
 
 class StaticSolve(Table):
@@ -132,6 +95,11 @@ class Output(Table):
     every: Time | None = Field(
         default=None, description="s between outputs, a hundredth of the duration by default", examples=[0.02]
     )
+    probes: Annotated[tuple[Point, ...], Field(max_length=1000)] = Field(
+        default=((0.0, 0.0, 0.0),),
+        description="m, points at which a run in waves writes the motion of the water",
+        examples=[[[0.0, 0.0, -1.0]]],
+    )
 
 
 class Compare(Table):
@@ -155,6 +123,7 @@ class Case(Table):
     title: Title = Field(default="", description="one line for figures and reports")
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
+    waves: WavesSpec | None = Field(default=None, description="the waves")
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
@@ -182,6 +151,7 @@ class Case(Table):
         for number, panel in enumerate(self.gear, 1):
             if panel.netting in self.netting:
                 panel.settle(str(number) if len(self.gear) > 1 else "", self.netting[panel.netting])
+        self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
     def text(self) -> str:
@@ -209,11 +179,27 @@ class Case(Table):
         return {name: spec.twine(name) for name, spec in self.twine.items()}
 
     @property
+    def folder(self) -> Path:
+        """The folder that file names count from: of the case file, the present one for a text."""
+        return self._path.parent if self._path else Path()
+
+    @property
+    def solidity(self) -> float:
+        """Solidity of the panels as hung on their frames, the mean by their areas."""
+        solid, area = 0.0, 0.0
+        for panel in self.gear:
+            netting = self.netting[panel.netting]
+            outline = panel.size[0] * panel.size[1]
+            solid += outline * hung_solidity(panel, netting, self.twine[netting.twine].diameter)
+            area += outline
+        return solid / area
+
+    @property
     def positions_file(self) -> Path | None:
         """Measured positions to compare with; a relative name counts from the folder of the case file."""
         if self.compare is None:
             return None
-        return (self._path.parent if self._path else Path()) / self.compare.positions
+        return self.folder / self.compare.positions
 
 
 def json_schema() -> dict[str, Any]:

@@ -6,6 +6,7 @@ _TEMPLATE = """\
 # A case file of fyke. A number is in SI units; a text in quotes may carry a unit:
 #   length m mm cm km um in ft fathom    speed m/s cm/s mm/s kn km/h ft/s    time s ms us min h
 #   pressure Pa kPa MPa GPa N/mm2        density kg/m3 g/cm3 g/l            force N kN mN kgf
+#   angle deg rad, always with its unit
 # The axes: z up with still water at z = 0, x downstream. Lines that start with "# " show what may be added.
 schema = 1
 title = "Knotted nylon panel, 8 x 8 diamond meshes, on a square frame"
@@ -14,9 +15,36 @@ title = "Knotted nylon panel, 8 x 8 diamond meshes, on a square frame"
 density = 1000.0                     # kg/m3
 kinematic_viscosity = 1.0e-6         # m2/s, for Reynolds numbers
 gravity = 9.81                       # m/s2
+# depth = 20.0                       # m, to the sea bed; deep water without it
 
 [current]
-velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]
+velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]; or, instead of it:
+# speed = 0.5                        # m/s, and the direction in which the water goes, from +x turning to +y
+# direction = "15 deg"
+# By depth, m below the surface: a power law from the velocity there to the sea bed (depth in [water]); or, instead of
+# velocity, layers that hold down to the next, or a table that is straight between its depths:
+# profile = { kind = "power", exponent = 0.143 }
+# profile = { kind = "layers", depth = [0, 5], velocity = [[0.5, 0, 0], [0.3, 0, 0]] }
+# profile = { kind = "table", depth = [0, 10], speed = [0.5, 0.3], direction = ["0 deg", "20 deg"] }
+# file = "current.csv"               # instead of velocity: columns time,u,v,w or time,depth,u,v,w; or netCDF
+# at = "3 h"                         # time of the file at which the run begins, its first by default
+# ramp = "10 s"                      # smooth start of a dynamic case from rest
+
+# [waves]
+# kind = "airy"                      # airy | stokes2 | jonswap | pierson-moskowitz
+# height = 1.0                       # m, crest to trough; height, period and phase are of regular waves
+# period = "6 s"
+# phase = "0 deg"
+# direction = "0 deg"                # in which they go, from +x turning to +y
+# ramp = "10 s"                      # over which the waves grow from nothing
+# stretching = "wheeler"             # wheeler | none; stokes2 has none of it
+# For kind = "jonswap" or "pierson-moskowitz":
+# significant_height = 1.0           # m
+# peak_period = "6 s"
+# gamma = 3.3                        # of jonswap; by Tp / sqrt(Hs) without it
+# components = 200
+# seed = 1                           # the same seed gives the same sea
+# spreading = { exponent = 10, directions = 15 }
 
 [twine.main]                         # any number of twines, each with a name
 material = "PA"                      # PA, PES, PP, PE or UHMWPE: density and modulus where you give none
@@ -50,10 +78,22 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
 knots = { law = "constant", drag = 1.0 }                       # on pi d^2 / 4
+# Or published laws, alone by their word or with their parameters; fyke laws lists them, their ranges and sources.
+# bars = "choo-casarella"            # or takagi, bessonneau-marichal, wan
+# bars = { law = "ns-cheng", tangential = 0.05 }    # or kristiansen-faltinsen, white, sucker-brauer: none along a bar
+# bars = { law = "cifuentes-kim", solidity = 0.2 }  # as hung, where you leave it out
+# bars = { law = "hoerner", across = 1.1, friction = 0.02 }
+# bars = { law = "table", file = "drag.csv" }       # columns reynolds,normal,tangential; angle-table: by angle too
+# knots = { law = "schiller-naumann", shape = 1.2 } # or clift-gauvin, clift-grace-weber
+# kind = "screens"                   # drag of whole meshes, not of bars and knots, by one of the laws of panels:
+# screens = { law = "kristiansen-faltinsen", series = "simple" }    # or aarsnes, loland, balash, fridman, bi, lee
 
 [added_mass]                         # over the mass of the displaced water
-bars = 1.0                           # across the bar only
+bars = 1.0                           # C_a, across the bar only
 knots = 0.5
+# bars = { law = "constant", inertia = 2.0 }        # where you know the inertia coefficient 1 + C_a
+# bars = "lee"                       # sine of the angle between bar and flow; or potential-flow
+# bars = { law = "table", angle = ["0 deg", "90 deg"], coefficient = [0.1, 1.0] }    # or a file by angle
 
 [solve]
 kind = "static"                      # static | dynamic
@@ -69,6 +109,7 @@ kind = "static"                      # static | dynamic
 
 [output]
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
+# probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
 
 # [compare]                          # measured positions to lay over the result
 # positions = "measured.csv"         # beside this file; columns knot,x,y,z (m), knot as "row-column"

@@ -98,7 +98,7 @@ VISCOSITY = Kind(
     "1.0 cSt",
 )
 ENERGY = Kind("energy", "J", {"J": Fraction(1), "mJ": Fraction("1e-3"), "uJ": Fraction("1e-6")}, "1 uJ")
-ANGLE = Kind("angle", "rad", {"rad": Fraction(1), "deg": Fraction(math.pi) / 180}, "15 deg")
+ANGLE = Kind("angle", "rad", {"deg": Fraction(math.pi) / 180, "rad": Fraction(1)}, "15 deg")
 ACCELERATION = Kind("acceleration", "m/s2", {"m/s2": Fraction(1)}, "9.81 m/s2")
 RATIO = Kind("ratio", "", {"%": Fraction("1e-2")}, "45 %")
 

@@ -7,13 +7,18 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..case import Case, CaseError, load_case
 from ..netting.lattice import flat_strain
 from ..netting.measures import measure_net, measure_panel
-from ..netting.net import Panel
+from ..netting.net import Net, Panel
+from ..results.ranges import bar_values, knot_values, laws_of, out_of_range
 from ..system.build import build_net, build_system
 from ..system.system import System
+from ..water.current import at_full_strength
+from ..water.laws.bars import ConstantBar
+from ..water.laws.law import REYNOLDS
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -27,18 +32,19 @@ from .show import (
     vector,
 )
 
+Array = NDArray[np.float64]
+
 
 def check_case(file: Path, *, json: bool) -> int:
     """Judge a case file, print what would be built and return the exit code."""
     try:
-        case = load_case(file)
+        findings = judge(load_case(file))
     except CaseError as error:
         if json:
             print_json(problems_as_json(error.problems))
         else:
             print_problems(error.problems)
         return WRONG_INPUT
-    findings = judge(case)
     if json:
         print_json(findings)
     else:
@@ -51,28 +57,69 @@ def judge(case: Case) -> dict[str, Any]:
 
     mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each, lengths in m, areas in m2,
     mass_per_area in kg/m2, rtex in tex; strain: largest of the flat panel, negative where all bars are slack;
-    reynolds: speed of the current times twine diameter over viscosity; damping_time: longest retardation time (s).
+    reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
+    largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
+    retardation time (s).
+    drag: the laws by their words; out_of_range: at how many bars, knots or panels they leave their ranges in the
+    undisturbed current.
     """
     net = build_net(case)
     system = build_system(net, case)
-    measures = measure_net(net)
+    measures, laws = measure_net(net), laws_of(case)
+    water = at_full_strength(system.current).velocity(net.positions, 0.0)
+    numbers = (
+        bar_values(net, net.positions, water, ConstantBar(), laws.viscosity)[REYNOLDS],
+        knot_values(net, water, laws.viscosity)[REYNOLDS],
+    )
+    start = [(0.0, net.positions, np.zeros_like(net.positions))]
+    outside = out_of_range(
+        net, start, laws, lambda *_: water, screens=lambda _, flow: _as_screens(net, flow, laws.viscosity)
+    )
     return {
         "title": case.title,
         "solve": case.solve.kind,
         **asdict(measures),
         "weight_in_water": system.weight_in_water,
-        "current": list(case.current.velocity),
-        "panels": [_panel(case, system, panel) for panel in net.panels],
-        "warnings": list(case.warnings),
+        "current": list(case.current.at_surface),
+        "current_words": case.current.described,
+        "waves": case.waves.described if case.waves else None,
+        "drag": {
+            key: law.name
+            for key, law in (("bars", laws.bars), ("knots", laws.knots), ("screens", laws.panels))
+            if law is not None
+        },
+        "panels": [_panel(case, system, panel, *numbers) for panel in net.panels],
+        "warnings": [*case.warnings, *outside.warnings],
+        "out_of_range": outside.counts,
         "case_sha256": case.sha256,
     }
 
 
-def _panel(case: Case, system: System, panel: Panel) -> dict[str, Any]:
+def _as_screens(net: Net, flow: Array, viscosity: float) -> tuple[Array, Array, Array]:
+    """Return solidity, angle (rad) between normal and flow, and Reynolds number of every flat panel as a whole."""
+    rows = []
+    for panel in net.panels:
+        velocity = flow[slice(*panel.knots)].mean(axis=0)
+        speed = float(np.linalg.norm(velocity))
+        through = abs(float(velocity @ np.cross(*panel.axes))) / speed if speed > 0.0 else 1.0
+        diameter = float(net.bar_diameter[panel.bars[0]])
+        solidity = measure_panel(net, panel).solidity
+        rows.append((solidity, np.arccos(min(through, 1.0)), speed * diameter / viscosity))
+    solid, angle, reynolds = np.array(rows).reshape(-1, 3).T
+    return solid, angle, reynolds
+
+
+def _span(values: Array) -> list[float]:
+    """Return the least and the largest of some numbers, NaN left out; zeros where there is none."""
+    there = values[np.isfinite(values)]
+    return [float(there.min()), float(there.max())] if there.size else [0.0, 0.0]
+
+
+def _panel(case: Case, system: System, panel: Panel, across: Array, at_knots: Array) -> dict[str, Any]:
     net, twine = system.net, case.twine[panel.twine]
     spec = next(one for one in case.gear if one.name == panel.name)
     mesh = case.netting[spec.netting].mesh
-    speed = float(np.linalg.norm(case.current.velocity))
+    speed = float(np.linalg.norm(case.current.at_surface))
     return {
         "name": panel.name,
         "netting": spec.netting,
@@ -83,6 +130,8 @@ def _panel(case: Case, system: System, panel: Panel) -> dict[str, Any]:
         "fixed": int(np.count_nonzero(net.fixed[slice(*panel.knots)])),
         "strain": max(flat_strain(mesh, panel.meshes, panel.bar_length, panel.size)),
         "reynolds": speed * twine.diameter / case.water.kinematic_viscosity,
+        "reynolds_across": _span(across[slice(*panel.bars)]),
+        "reynolds_knots": _span(at_knots[slice(*panel.knots)])[1],
         "damping_time": float(system.elements.damping_time[slice(*panel.bars)].max()),
         "damping_source": twine.damping_source,
     }
@@ -93,9 +142,11 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     sinks = "sinks" if findings["weight_in_water"] >= 0.0 else "floats"
     rows = [
         ("solve", findings["solve"]),
-        ("current", vector(findings["current"], "m/s")),
+        ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
+        *([("waves", findings["waves"])] if findings["waves"] else []),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
+        ("drag", ", ".join(f"{what}: {law}" for what, law in findings["drag"].items())),
         ("mass in air", quantity(findings["mass"], "kg")),
         ("weight in water", f"{quantity(findings['weight_in_water'], 'N')} ({sinks})"),
     ]
@@ -123,6 +174,13 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
         ("twine", quantity(panel["rtex"], "tex")),
         ("fixed knots", f"{panel['fixed']}"),
         ("bar strain when flat", f"{panel['strain'] * 100:.2f} % ({state})"),
-        ("Reynolds number", f"{panel['reynolds']:.0f} at the bars"),
+        ("Reynolds number", _reynolds(panel)),
         ("twine damping", f"{quantity(panel['damping_time'] * 1e6, 'us', 3)}, {panel['damping_source']}"),
     ]
+
+
+def _reynolds(panel: dict[str, Any]) -> str:
+    low, high = (f"{value:.4g}" for value in panel["reynolds_across"])
+    span = high if low == high else f"{low} to {high}"
+    knots = f", {panel['reynolds_knots']:.4g} at the knots" if panel["reynolds_knots"] else ""
+    return f"{span} across the bars{knots}"

@@ -84,13 +84,17 @@ def opened(file: Path) -> tuple[Path, Result]:
 def current_of(result: Result) -> Vector | None:
     """Return the undisturbed current (m/s) of the case behind a result, None where it is not known."""
     case = case_of(result)
-    return None if case is None else case.current.velocity
+    return None if case is None else case.current.at_surface
 
 
 def case_of(result: Result) -> Case | None:
-    """Return the case behind a result, None for a net made in Python and a case of another version."""
+    """Return the case behind a result, None for a net made in Python and a case of another version.
+
+    None also where the file of its current is gone; it is looked for from the present folder.
+    """
     try:
-        return recorded_case(result.case_text) if result.case_text else None
+        case = recorded_case(result.case_text) if result.case_text else None
+        return case if case is not None and case.current.flow() else None
     except CaseError:
         return None
 

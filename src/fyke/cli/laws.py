@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields
 from difflib import get_close_matches
 from pathlib import Path
@@ -11,7 +10,7 @@ from typing import Any
 
 from rich.text import Text
 
-from ..case import CaseError, Problem, json_schema
+from ..case import CaseError, Problem
 from ..case.drag_table import read_drag_table
 from ..water.laws import LAWS, AngleLaw, BarLaw, Law
 from .show import DONE, WRONG_INPUT, print_json, print_problems, stdout
@@ -26,7 +25,7 @@ NO_OTHER_NETTING = "bi"  # a fit to one netting says nothing of another, so it i
 
 def list_laws(*, json: bool) -> int:
     """Print every law by kind and return the exit code."""
-    found = {kind: [_described(kind, law) for law in laws.values()] for kind, laws in LAWS.items()}
+    found = {kind: [_described(law) for law in laws.values()] for kind, laws in LAWS.items()}
     if json:
         print_json(found)
         return DONE
@@ -34,8 +33,7 @@ def list_laws(*, json: bool) -> int:
     for kind, laws in found.items():
         console.print(Text(TITLES[kind], style="bold"))
         for law in laws:
-            used = "  (in case files)" if law["in_case_file"] else ""
-            console.print(Text.assemble(("  " + law["name"], "bold"), f"  {law['title']}{used}"))
+            console.print(Text.assemble(("  " + law["name"], "bold"), f"  {law['title']}"))
             where = f"{'; '.join(law['range']) or 'no range stated'}; on {law['area']}"
             for words in (where, law["source"], f"read {law['read']}"):
                 for line in textwrap.wrap(words, console.width - 6) if words not in {"read -"} else ():
@@ -43,32 +41,12 @@ def list_laws(*, json: bool) -> int:
         console.print()
     console.print(Text("d twine or knot diameter, l bar length, Re = d V / nu, Sn solidity, V speed"))
     console.print(Text("angles of a bar to the flow, 90 deg across; of a panel's normal, 0 face on"))
+    console.print(Text('in a case file: [drag] bars = "NAME", knots = "NAME"; kind = "screens",'))
+    console.print(Text('screens = "NAME" for panels; with parameters { law = "NAME", ... }'))
     return DONE
 
 
-def in_case_files() -> Mapping[str, frozenset[str]]:
-    """Return the names of the laws that a case file takes, by kind, from its schema."""
-    schema = json_schema()
-    drag = schema["$defs"]["Drag"]["properties"]
-    return {kind: frozenset(_law_names(drag[kind], schema["$defs"])) for kind in LAWS if kind in drag}
-
-
-def _law_names(node: Any, models: Mapping[str, Any]) -> Iterator[str]:
-    """Yield what the key `law` may be in a part of the schema and in the models that it points to."""
-    if isinstance(node, list):
-        for one in node:
-            yield from _law_names(one, models)
-    if not isinstance(node, dict):
-        return
-    if "$ref" in node:
-        yield from _law_names(models[node["$ref"].rsplit("/", 1)[-1]], models)
-    word = node.get("properties", {}).get("law", {})
-    yield from [word["const"]] if "const" in word else word.get("enum", [])
-    for key in ("anyOf", "oneOf", "allOf"):
-        yield from _law_names(node.get(key, []), models)
-
-
-def _described(kind: str, law: type[Law]) -> dict[str, Any]:
+def _described(law: type[Law]) -> dict[str, Any]:
     # Every law is a dataclass, which its type does not say.
     asked = [one for one in fields(law) if one.default is MISSING]  # type: ignore[arg-type]
     ranges = ["that of its points"] if asked else [str(one) for one in law().ranges]
@@ -81,7 +59,6 @@ def _described(kind: str, law: type[Law]) -> dict[str, Any]:
         "parameters": {one.name: None if one in asked else one.default for one in fields(law)},  # type: ignore[arg-type] # so
         "source": law.source,
         "read": law.read,
-        "in_case_file": law.name in in_case_files().get(kind, ()),
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from ..solve.result import Result
 from ..solve.static import solve_static
 from ..system.build import build_net, build_system
 from ..system.system import System
+from ..water.current import at_full_strength
 from .show import (
     DONE,
     NOT_CONVERGED,
@@ -37,6 +39,7 @@ def show_modes(file: Path, count: int, *, json: bool) -> int:
     try:
         case = load_case(file)
         system = build_system(build_net(case), case)
+        system = replace(system, current=at_full_strength(system.current))
         rest = solve_static(system, tolerance=case.solve.tolerance)
         found = _modes(file, system, rest, count) if rest.outcome.ok else None
     except CaseError as error:

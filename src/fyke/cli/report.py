@@ -80,7 +80,7 @@ def _measured(
 def _figures(result: Result, case: Case | None, system: System | None) -> dict[str, Any]:
     figures = summary(
         result,
-        current_direction=None if case is None else case.current.velocity,
+        current_direction=None if case is None else case.current.at_surface,
         audit=None if system is None else audit(system, result),
     )
     own = () if case is None else case.warnings

@@ -28,6 +28,7 @@ from ..results import (
     write_summary,
     write_tables,
 )
+from ..results.ranges import laws_of, moments, out_of_range
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
 from ..solve.outcome import Outcome
@@ -210,11 +211,13 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         result,
         title=case.title,
         case_sha256=case.sha256,
-        current_direction=case.current.velocity,
+        current_direction=case.current.at_surface,
         audit=audit(system, result),
     )
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
-    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings]))
+    outside = out_of_range(system.net, moments(result), laws_of(case), system.current.velocity)
+    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
+    figures["out_of_range"] = outside.counts
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
         figures["measured_rms"] = comparison.rms
@@ -226,7 +229,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
 def _draw(case: Case, result: Result, folder: Path, comparison: Comparison | None) -> list[Path]:
     from ..report.figures import draw_all
 
-    return draw_all(result, folder, comparison=comparison, current=case.current.velocity)
+    return draw_all(result, folder, comparison=comparison, current=case.current.at_surface)
 
 
 def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Path) -> None:

@@ -69,11 +69,12 @@ def print_sources(file: Path) -> int:
 
     try:
         case = load_case(file)
+        system = build_system(build_net(case), case)
     except CaseError as error:
         print_problems(error.problems)
         return WRONG_INPUT
     console = stdout()
     console.print(f"Computed with fyke {__version__}, built on:")
-    for source in sources_of(case, build_system(build_net(case), case)):
+    for source in sources_of(case, system):
         console.print(textwrap.fill(source, console.width, initial_indent="- ", subsequent_indent="  "))
     return DONE

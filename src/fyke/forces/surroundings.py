@@ -99,7 +99,7 @@ class Surroundings:
         c, net = system.coefficients, system.net
         self._radius = 0.5 * net.bar_diameter, 0.5 * net.knot_diameter
         self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
-        self._by_angle = not isinstance(c.added_mass_bar, int | float)
+        self._by_angle = not c.bar_mass.constant
 
     @property
     def steady(self) -> bool:
@@ -154,8 +154,8 @@ class Surroundings:
         a, b = el.knot_a, el.knot_b
         t, w = x[b] - x[a], 0.5 * (rel[a] + rel[b])
         angle = np.arctan2(np.linalg.norm(np.cross(w, t), axis=1), np.abs(np.einsum("eq,eq->e", w, t)))
-        law = self.system.coefficients.added_mass_bar
-        return el._replace(bar_added_mass=law.coefficient(angle) * self.system.displaced.bar)
+        added = self.system.coefficients.bar_mass.coefficient(angle)
+        return el._replace(bar_added_mass=added * self.system.displaced.bar)
 
     def _wetted(self, el: Elements, x: Array, elevation: Array) -> tuple[Elements, Displaced]:
         """Drag, added mass and buoyancy of what is under water, and the water that it displaces."""

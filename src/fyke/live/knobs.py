@@ -61,7 +61,9 @@ def turned(raw: Raw, knobs: tuple[Knob, ...], values: Values) -> Raw:
 
 
 def _current(case: Case) -> list[Knob]:
-    velocity = np.array(case.current.velocity)
+    if not case.current.is_one_velocity:
+        return []  # no slider moves a whole profile
+    velocity = np.array(case.current.at_surface)
     speed = float(np.linalg.norm(velocity))
     level = float(np.hypot(velocity[0], velocity[1]))
     azimuth = float(np.degrees(np.arctan2(velocity[1], velocity[0])))
@@ -72,6 +74,8 @@ def _current(case: Case) -> list[Knob]:
         unit = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
         # What is only rounding of a right angle is nothing.
         unit[np.abs(unit) < 1e-15] = 0.0
+        for key in ("speed", "direction"):
+            raw["current"].pop(key, None)
         raw["current"]["velocity"] = (values["current.speed"] * unit).tolist()
 
     top = max(FASTEST, 2.0 * speed)

@@ -25,6 +25,7 @@ from ..solve.static import solve_static
 from ..solve.stepper import Run
 from ..system.build import build_net, build_system
 from ..system.system import State, System
+from ..water.current import at_full_strength
 from .knobs import Knob, knobs_of, turned
 
 Array = NDArray[np.float64]
@@ -48,6 +49,12 @@ class Numbers:
     sag: float
 
 
+def _system_of(case: Case) -> System:
+    """Return the system of a case, its current at full strength: a shape that one looks at has no beginning."""
+    system = build_system(build_net(case), case)
+    return replace(system, current=at_full_strength(system.current))
+
+
 class Study:
     """One net in the hands of one person.
 
@@ -62,7 +69,7 @@ class Study:
         self.knobs: tuple[Knob, ...] = knobs_of(self.case)
         self.values: dict[str, float] = {knob.key: knob.value for knob in self.knobs}
         self.pins: dict[int, Array] = {}
-        self._built: System = build_system(build_net(self.case), self.case)
+        self._built: System = _system_of(self.case)
         self.system: System = self._built
         self.run: Run | None = None
         self._linear: tuple[bytes, Factorizer] | None = None
@@ -71,7 +78,7 @@ class Study:
     @property
     def current(self) -> Array:
         """Velocity of the undisturbed water, (3,) m/s."""
-        return np.array(self.case.current.velocity)
+        return np.array(self.case.current.at_surface)
 
     @property
     def numbers(self) -> Numbers:
@@ -95,7 +102,7 @@ class Study:
         values = self.values | changes
         try:
             case = parse_case(tomli_w.dumps(turned(self._raw, self.knobs, values)), path=self.path)
-            built = build_system(build_net(case), case)
+            built = _system_of(case)
         except CaseError as error:
             raise RefusedError(
                 "; ".join(f"{p.found}: {p.allowed} is allowed" for p in error.problems)

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from ..results.compare import Comparison
+from ..results.probes import Probes
 from ..results.whole import replacing
 from ..solve.result import Result
 from . import style
@@ -17,6 +18,7 @@ from .histories import histories
 from .overlay import shape_comparison
 from .plan import tension_plan
 from .shapes import equilibrium_shape, initial_position
+from .waves import wave_histories
 
 __all__ = [
     "draw_all",
@@ -27,6 +29,7 @@ __all__ = [
     "shape_comparison",
     "tension_histogram",
     "tension_plan",
+    "wave_histories",
     "write_figure",
 ]
 
@@ -44,18 +47,24 @@ def draw_all(
     *,
     comparison: Comparison | None = None,
     current: ArrayLike | None = None,
+    probes: Probes | None = None,
 ) -> list[Path]:
     """Draw every figure that applies to a result; write each as PNG and SVG into an existing folder.
 
     comparison: adds the overlay of measured positions; current: (3,) m/s, undisturbed, for the arrow of the initial
-    position and the direction of drag. A result of more than one frame has histories. Return the files written.
+    position and the direction of drag; probes: adds the waves. A result of more than one frame has histories. Return
+    the files written.
     """
-    figures = figures_of(result, comparison=comparison, current=current)
+    figures = figures_of(result, comparison=comparison, current=current, probes=probes)
     return [file for name, figure in figures.items() for file in write_figure(figure, Path(folder) / name)]
 
 
 def figures_of(
-    result: Result, *, comparison: Comparison | None = None, current: ArrayLike | None = None
+    result: Result,
+    *,
+    comparison: Comparison | None = None,
+    current: ArrayLike | None = None,
+    probes: Probes | None = None,
 ) -> dict[str, Figure]:
     """Draw every figure that applies to a result, by name; arguments are those of `draw_all`."""
     figures = {
@@ -68,6 +77,8 @@ def figures_of(
         figures["histories"] = histories(result, current=current)
     if comparison is not None:
         figures["comparison"] = shape_comparison(result, comparison)
+    if probes is not None:
+        figures["waves"] = wave_histories(probes)
     return figures
 
 

@@ -5,6 +5,7 @@ from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkp
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .layout import frame_bytes
+from .probes import Probes, probe, write_probes
 from .recorder import Recorder
 from .store import ResultError, load, save
 from .tables import write_summary, write_tables
@@ -15,6 +16,7 @@ __all__ = [
     "Comparison",
     "EnergyBudget",
     "MeasurementError",
+    "Probes",
     "Recorder",
     "ResultError",
     "audit",
@@ -23,9 +25,11 @@ __all__ = [
     "frames_of",
     "load",
     "load_checkpoint",
+    "probe",
     "save",
     "save_checkpoint",
     "summary",
+    "write_probes",
     "write_summary",
     "write_tables",
 ]

@@ -31,13 +31,13 @@ def write_tables(result: Result, folder: str | Path) -> tuple[Path, Path]:
     knots.parent.mkdir(parents=True, exist_ok=True)
     places = np.hstack([net.positions, last.position]).tolist()
     fixed = net.fixed.astype(int).tolist()
-    _write_table(
+    write_table(
         knots,
         KNOT_COLUMNS,
         ((i, net.labels[i], fixed[i], *map(repr, place)) for i, place in enumerate(places)),
     )
     figures = np.column_stack([net.rest_length, bar_lengths(result), last.tension]).tolist()
-    _write_table(
+    write_table(
         bars,
         BAR_COLUMNS,
         ((i, *ends, *map(repr, figures[i])) for i, ends in enumerate(net.bars.tolist())),
@@ -55,7 +55,8 @@ def write_summary(figures: Mapping[str, Any], folder: str | Path) -> Path:
     return path
 
 
-def _write_table(path: Path, columns: tuple[str, ...], rows: Iterable[tuple[Any, ...]]) -> None:
+def write_table(path: Path, columns: tuple[str, ...], rows: Iterable[tuple[Any, ...]]) -> None:
+    """Write a table with the names of its columns as CSV, whole or not at all."""
     with replacing(path) as part, part.open("w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(columns)

@@ -16,10 +16,11 @@ from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
+from ..water.waves import Waves
 from .curves import INTERVALS, NO_ANGLES, ROW, bar_curves, knot_curves
 from .elements import Elements
 from .laws import Coefficients, Water
-from .system import Displaced, System, Waves
+from .system import Displaced, System
 
 Array = NDArray[np.float64]
 
@@ -56,17 +57,24 @@ def build_system(net: Net, case: Case) -> System:
     water = case.water
     system = make_system(
         net,
-        current=case.current.velocity,
+        current=case.current.flow(),
         water=Water(water.density, water.kinematic_viscosity, water.gravity),
-        coefficients=Coefficients(
-            bars=ConstantBar(case.drag.bars.normal, case.drag.bars.tangential),
-            knots=ConstantKnot(case.drag.knots.drag),
-            added_mass_bar=case.added_mass.bars,
-            added_mass_knot=case.added_mass.knots,
-        ),
+        coefficients=_coefficients(case),
+        waves=None if case.waves is None else case.waves.sea(water.depth, water.gravity),
         surface=True,
     )
     return replace(system, case_text=case.text)
+
+
+def _coefficients(case: Case) -> Coefficients:
+    """Laws of a case. CaseError for a table of coefficients that cannot be used."""
+    return Coefficients(
+        bars=case.drag.bar_law(solidity=case.solidity, folder=case.folder),
+        knots=case.drag.knot_law(),
+        screens=case.drag.panel_law(),
+        added_mass_bar=case.added_mass.bar_law(folder=case.folder),
+        added_mass_knot=case.added_mass.knot_coefficient(),
+    )
 
 
 def make_system(
@@ -102,7 +110,7 @@ def make_system(
         rest_length=net.rest_length.copy(),
         stiffness=stiffness,
         damping_time=damping,
-        bar_added_mass=0.5 * c.added_mass_bar * w.density * volume,
+        bar_added_mass=0.5 * float(c.bar_mass.coefficient(0.5 * np.pi)) * w.density * volume,
         law_rows=rows,
         law_first=first,
         law_end=end,
@@ -192,8 +200,7 @@ def _sources(net: Net, c: Coefficients, damping: Array) -> tuple[str, ...]:
     """One line for each law: what it says and where it comes from."""
     return (
         *_drag_sources(c),
-        f"added mass: C_a = {c.added_mass_bar:g} across a bar, {c.added_mass_knot:g} of a knot (potential flow: "
-        "cylinder 1, sphere 1/2)",
+        _mass_source(c),
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
         *(
             f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
@@ -219,6 +226,13 @@ def _drag_sources(c: Coefficients) -> tuple[str, str]:
         else f"{knots.title} ({knots.source})"
     )
     return f"bar drag: {bar}", f"knot drag: {knot}"
+
+
+def _mass_source(c: Coefficients) -> str:
+    """One line for the added mass."""
+    law = c.bar_mass
+    bar = f"C_a = {float(law.coefficient(0.0)):g}" if law.constant else f"{law.title} ({law.source})"
+    return f"added mass: {bar} across a bar, {c.added_mass_knot:g} of a knot (potential flow: cylinder 1, sphere 1/2)"
 
 
 def _damping(twine: Twine, time: Array) -> str:

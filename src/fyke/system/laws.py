@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from ..water.inertia import AddedMassLaw, ConstantAddedMass
 from ..water.laws import BarLaw, KnotLaw, PanelLaw
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
@@ -30,5 +31,11 @@ class Coefficients:
     bars: BarLaw = field(default_factory=ConstantBar)
     knots: KnotLaw = field(default_factory=ConstantKnot)
     screens: PanelLaw | None = None
-    added_mass_bar: float = 1.0
+    added_mass_bar: float | AddedMassLaw = 1.0
     added_mass_knot: float = 0.5
+
+    @property
+    def bar_mass(self) -> AddedMassLaw:
+        """Law of the added mass across a bar."""
+        given = self.added_mass_bar
+        return given if isinstance(given, AddedMassLaw) else ConstantAddedMass(given)

@@ -3,24 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..netting.net import Net
 from ..water.current import Current
+from ..water.waves import Waves
 from .elements import Elements
 from .laws import Coefficients, Water
 
 Array = NDArray[np.float64]
-
-
-class Waves(Protocol):
-    """What waves must offer."""
-
-    def motion(self, points: Array, time: float) -> Any:
-        """Return velocity, acceleration and elevation."""
 
 
 @dataclass(frozen=True)

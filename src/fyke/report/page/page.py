@@ -76,7 +76,7 @@ def render(
     result: Result, *, figures: dict[str, Any], origin: Origin, comparison: Comparison | None = None
 ) -> str:
     """Return the report as HTML text."""
-    current = None if origin.case is None else np.array(origin.case.current.velocity)
+    current = None if origin.case is None else np.array(origin.case.current.at_surface)
     spatial = result.net.bar_count <= MOST_BARS
     data = {"scene": scene(result, current) if spatial else None, "histories": _histories(result, current)}
     kept = kept_frames(result)

@@ -1,0 +1,170 @@
+"""Faces: the meshes of netting as plane pieces that the water pushes on, with corners at the knots.
+
+A mesh of diamond netting is a rhombus, half a mesh along the frame a triangle, a mesh of square netting a quadrangle.
+The corners go round a face so that its vector area N = 1/2 (x_c - x_a) x (x_d - x_b) points to the panel's normal,
+width x height. That is the vector area of any quadrangle, flat or not, and of a triangle a, b, c whose last corner is
+repeated.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .lattice import Lattice, MeshKind, lattice
+from .measures import measure_panel
+from .net import Net, Panel
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+# Corners of a face as steps (i, j) on the lattice, in order round it. Whole diamonds go from the middle of the mesh;
+# halves lie at the sides i = 0, i = end, j = 0, j = end, and their side c-a is the one along the frame.
+_DIAMOND = ((-1, 0), (0, -1), (1, 0), (0, 1))
+_HALVES = (
+    ((0, -1), (1, 0), (0, 1), (0, 1)),
+    ((0, 1), (-1, 0), (0, -1), (0, -1)),
+    ((1, 0), (0, 1), (-1, 0), (-1, 0)),
+    ((-1, 0), (0, -1), (1, 0), (1, 0)),
+)
+_SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
+
+
+@dataclass(frozen=True)
+class Faces:
+    """p faces of a net.
+
+    corners: (p, 4) knots in order round the face, a triangle repeating its last; share: (p, 4) of the face's force
+    that each corner bears, 0 where repeated; area: (p,) m2, outline, hung on the frame and not yet stretched;
+    solidity: (p,) as hung; diameter: (p,) m, of the twine; panel: (p,) index into net.panels; bars: (p, 4) bars from
+    each corner to the next, -1 where there is none.
+    """
+
+    corners: Indices
+    share: Array
+    area: Array
+    solidity: Array
+    diameter: Array
+    panel: Indices
+    bars: Indices
+
+    @property
+    def count(self) -> int:
+        """Number of faces, p."""
+        return len(self.corners)
+
+    @cached_property
+    def triangle(self) -> NDArray[np.bool_]:
+        """Whether a face has three corners, (p,)."""
+        return np.asarray(self.corners[:, 3] == self.corners[:, 2])
+
+    def vector_area(self, x: Array) -> Array:
+        """Vector area N of every face (p, 3) m2 with the knots at x (n, 3) m."""
+        a, b, c, d = self.corners.T
+        return np.asarray(0.5 * np.cross(x[c] - x[a], x[d] - x[b]))
+
+
+def faces_of(net: Net) -> Faces:
+    """Return the faces of all panels of netting in a net, in the order of the panels; none for ropes.
+
+    ValueError when a panel's range of knots is not that of its meshes.
+    """
+    parts = [_faces_of_panel(net, panel, which) for which, panel in enumerate(net.panels)]
+    if not parts:
+        none, nothing = np.empty((0, 4), dtype=np.int64), np.empty(0)
+        return Faces(none, np.empty((0, 4)), nothing, nothing, nothing, np.empty(0, dtype=np.int64), none)
+    return Faces(
+        corners=np.concatenate([part.corners for part in parts]),
+        share=np.concatenate([part.share for part in parts]),
+        area=np.concatenate([part.area for part in parts]),
+        solidity=np.concatenate([part.solidity for part in parts]),
+        diameter=np.concatenate([part.diameter for part in parts]),
+        panel=np.concatenate([part.panel for part in parts]),
+        bars=np.concatenate([part.bars for part in parts]),
+    )
+
+
+def _faces_of_panel(net: Net, panel: Panel, which: int) -> Faces:
+    mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
+    grid = lattice(mesh, panel.meshes)
+    if len(grid.knots) != panel.knots[1] - panel.knots[0]:
+        raise ValueError(
+            f"panel '{panel.name}' has {panel.knots[1] - panel.knots[0]} knots, but {panel.meshes[0]} x "
+            f"{panel.meshes[1]} {mesh} meshes have {len(grid.knots)}: give it the range of its own knots"
+        )
+    corners = _square_corners(grid) if mesh == "square" else _diamond_corners(grid)
+    triangle = corners[:, 3] == corners[:, 2]
+    cell = float(np.prod(np.array(panel.size) / grid.intervals)) * (1.0 if mesh == "square" else 2.0)
+    twine = next(t for t in net.twines if t.name == panel.twine)
+    third = np.array([1.0, 1.0, 1.0, 0.0]) / 3.0
+    count = len(corners)
+    return Faces(
+        corners=corners + panel.knots[0],
+        share=np.where(triangle[:, None], third, np.full(4, 0.25)),
+        area=np.where(triangle, 0.5, 1.0) * cell,
+        solidity=np.full(count, measure_panel(net, panel).solidity),
+        diameter=np.full(count, twine.diameter),
+        panel=np.full(count, which, dtype=np.int64),
+        bars=_sides(net, panel, grid, corners),
+    )
+
+
+def _places(grid: Lattice) -> Indices:
+    """Index of the knot at every (i, j), -1 where there is none."""
+    index = np.full((grid.intervals[0] + 1, grid.intervals[1] + 1), -1, dtype=np.int64)
+    index[grid.knots[:, 0], grid.knots[:, 1]] = np.arange(len(grid.knots))
+    return index
+
+
+def _around(index: Indices, at: Indices, steps: tuple[tuple[int, int], ...]) -> Indices:
+    """Knots (k, 4) by steps from lattice points at (k, 2)."""
+    return np.column_stack([index[at[:, 0] + i, at[:, 1] + j] for i, j in steps])
+
+
+def _square_corners(grid: Lattice) -> Indices:
+    i, j = np.indices(grid.intervals).reshape(2, -1)
+    return _around(_places(grid), np.column_stack([i, j]), _SQUARE)
+
+
+def _diamond_corners(grid: Lattice) -> Indices:
+    """Whole meshes about every lattice point without a knot, and halves about those on the frame, row by row."""
+    index = _places(grid)
+    middle = np.argwhere(index < 0)
+    sides = (
+        middle[:, 0] == 0,
+        middle[:, 0] == grid.intervals[0],
+        middle[:, 1] == 0,
+        middle[:, 1] == grid.intervals[1],
+    )
+    corners = np.empty((len(middle), 4), dtype=np.int64)
+    inside = ~np.any(sides, axis=0)
+    corners[inside] = _around(index, middle[inside], _DIAMOND)
+    for side, steps in zip(sides, _HALVES, strict=True):
+        corners[side] = _around(index, middle[side], steps)
+    return corners
+
+
+def _sides(net: Net, panel: Panel, grid: Lattice, corners: Indices) -> Indices:
+    """Bars (p, 4) from each corner to the next; -1 where no bar joins them.
+
+    From any knot at most two bars go to knots of higher index: one rises, or goes along the width, the other does not.
+    """
+    j = grid.knots[:, 1]
+    low, high = np.sort(net.bars[slice(*panel.bars)] - panel.knots[0], axis=1).T
+    bar_from, bar_to = np.full((2, 2, len(j)), -1, dtype=np.int64)
+    way = _way(panel, j, low, high)
+    bar_from[way, low] = np.arange(*panel.bars)
+    bar_to[way, low] = high
+    after = np.roll(corners, -1, axis=1)
+    low, high = np.minimum(corners, after), np.maximum(corners, after)
+    way = _way(panel, j, low, high)
+    return np.where(bar_to[way, low] == high, bar_from[way, low], -1)
+
+
+def _way(panel: Panel, j: Indices, low: Indices, high: Indices) -> Indices:
+    """Return which of two ways a side takes from its lower to its higher knot, 0 or 1; j: (n,) row of every knot."""
+    step = j[high] - j[low]
+    return (step > 0).astype(np.int64) if panel.mesh == "square" else (step < 0).astype(np.int64)
