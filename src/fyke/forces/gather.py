@@ -73,12 +73,13 @@ def share_laws(rank, team, old, fields, el, around, law):
 
 
 @njit(**OPTIONS)
-def block_force(block, old, uniform, fields, el, around, law, near, g):
+def block_force(block, old, fields, uniform, el, around, law, work):
     """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
     old: row of x in fields; uniform: the water has the same velocity everywhere; law: (2, m + 1) as laws_of_bars gives
-    it, used where laws are not linear; near: work array (NEAR_ROWS x PITCH,); g: (WORK_ROWS x PITCH,), OFFSET zero.
+    it, used where laws are not linear; work: arrays near (NEAR_ROWS x PITCH,) and g (WORK_ROWS x PITCH,), OFFSET zero.
     """
+    near, g = work
     here, size = extent(block, around)
     water = around.margin if uniform else here
     own = own_fields(old, here, water, fields, around)
@@ -101,7 +102,7 @@ def block_force(block, old, uniform, fields, el, around, law, near, g):
             _flow_past(begin, end, own, others, g)
             places = (row + NORMAL) * BLOCK, (row + CURVE) * BLOCK, (row + REYNOLDS) * BLOCK
             vary(begin, end, g, across, along, around.bars, places, el)
-        _add_bars(slot, own, others, slopes, slope, drags, across, along, around, g)
+        _add_bars(slot, own, others, (slopes, slope), (drags, across, along), around, g)
         if around.both[slot]:
             shift = around.shift[slot]
             for i in range(begin, end):
@@ -167,12 +168,13 @@ def _flow_past(begin, end, own, others, g):
 
 
 @njit(**OPTIONS)
-def _add_bars(slot, own, others, slopes, slope, drags, across, along, around, g):
+def _add_bars(slot, own, others, tensions, resistance, around, g):
     """Add the forces of one slot's bars to rows 0 to 2 of g; those on their far ends into FAR.
 
-    own, others: fields of the knots and their neighbours as own_fields gives them; slope: place of dT/dl of the first
-    knot's bar in slopes; across, along: those of c_n and c_t in drags.
+    own, others: fields of the knots and their neighbours as own_fields gives them; tensions: an array and the place of
+    dT/dl of the first knot's bar in it; resistance: the same, with the places of c_n and c_t.
     """
+    (slopes, slope), (drags, across, along) = tensions, resistance
     fields, width, x, v, u = own
     far, pitch, far_x, far_v, far_u = others
     bars, bar = around.bars, around.bars_row[slot] * BAR_ROWS * BLOCK

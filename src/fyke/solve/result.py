@@ -24,7 +24,8 @@ class Result:
 
     Shapes and units are those of Frame with the time axis put in front: time (k,) s, position (k, n, 3) m,
     velocity (k, n, 3) m/s, tension (k, m) N, bar_drag and bar_lift (k, m) N, water_velocity (k, m, 3) m/s,
-    water_force (k, n, 3) N, hydrodynamic_force and support_reaction (k, 3) N, kinetic_energy (k,) J, unbalanced_force (k,) N.
+    water_force (k, n, 3) N, hydrodynamic_force and support_reaction (k, 3) N, kinetic_energy (k,) J,
+    unbalanced_force (k,) N.
     weight_in_water: weight less buoyancy of the whole net, (N, positive sinks); case_text: the case file as read,
     "" for a net made in Python.
     """

@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from ..forces.compiled import OPTIONS
 from ..forces.bars import law_of_bar
+from ..forces.compiled import OPTIONS
 from ..forces.drag import bar_water_tangents
 
 

@@ -110,7 +110,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
         for block in range(first, last):
             if renew:
                 fastest = max(fastest, block_inverse_masses(block, old, fields, around, near, g, inverse))
-            block_force(block, old, uniform, fields, el, around, law, near, g)
+            block_force(block, old, fields, uniform, el, around, law, (near, g))
             _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, fields, g)
         rates[step & 1, rank * LINE] = fastest
         settle()
