@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from fyke.case import CaseError, json_schema, parse_case, template
 from fyke.forces.evaluate import evaluate
 from fyke.forces.shelter import Shelter
 from fyke.netting.elastic import LinearLaw
@@ -474,3 +475,75 @@ def test_the_cost_grows_with_the_knots_not_with_their_square():
         return min(times)
 
     assert cost((80, 80)) < 50.0 * cost((20, 20))
+
+
+# The case file
+
+
+def asked(lines):
+    return parse_case(template().replace("[shelter]", f"[shelter]\n{lines}\n#")).shelter
+
+
+def test_nothing_is_sheltered_unless_asked_for():
+    without = parse_case(template().replace("[shelter]", "#")).shelter
+    for spec in (without, asked(""), asked('wake = "off"\ntwines = "off"')):
+        assert spec.wake_law() is None and spec.twine_law() is None
+
+
+@pytest.mark.parametrize(
+    ("written", "law"),
+    [
+        ('"loland"', LolandWake()),
+        ('"momentum"', MomentumWake()),
+        ('"cheng"', ChengWake()),
+        ("0.8", FOUR_FIFTHS),
+        ('"80 %"', FOUR_FIFTHS),
+        ("1", GivenWake(1.0)),
+        ("0", GivenWake(0.0)),
+    ],
+)
+def test_wake_and_twines_by_their_words(written, law):
+    spec = asked(f'wake = {written}\ntwines = "cheng"')
+    assert spec.wake_law() == law
+    assert spec.twine_law() == ChengTwines()
+
+
+WAKE_ALLOWED = (
+    '"off" or "loland" or "momentum" or "cheng", or the factor that is left of the current, from 0 to 1'
+)
+
+
+@pytest.mark.parametrize(
+    ("line", "found", "allowed", "cure"),
+    [
+        ('wake = "Lolan"', '"Lolan"', WAKE_ALLOWED, 'did you mean "loland"?'),
+        ('wake = "CHENG"', '"CHENG"', WAKE_ALLOWED, 'did you mean "cheng"?'),
+        ('wake = "blue"', '"blue"', WAKE_ALLOWED, 'choose "off" or "loland" or "momentum" or "cheng"'),
+        ("wake = 1.2", "1.2", WAKE_ALLOWED, "this reads as 1.2; check the number"),
+        ("wake = -0.8", "-0.8", WAKE_ALLOWED, "leave out the minus sign"),
+        ("wake = nan", "nan", WAKE_ALLOWED, "give a number; nan means 'not a number'"),
+        ("wake = true", "true", WAKE_ALLOWED, 'choose "loland" or "momentum" or "cheng"'),
+        ("wake = false", "false", WAKE_ALLOWED, 'write "off"'),
+        ("wake = [0.8]", "[0.8]", WAKE_ALLOWED, "write one number, without brackets"),
+        ('twines = "chng"', '"chng"', '"off" or "cheng"', 'did you mean "cheng"?'),
+        ("twines = 0.9", "0.9", '"off" or "cheng"', 'choose "off" or "cheng", in quotes'),
+        (
+            'wakes = "loland"',
+            'unknown key: wakes = "loland"',
+            "the keys wake, twines",
+            "did you mean 'wake'?",
+        ),
+    ],
+)
+def test_a_wrong_word_or_number_is_told_with_what_is_allowed(line, found, allowed, cure):
+    with pytest.raises(CaseError) as caught:
+        asked(line)
+    (problem,) = caught.value.problems
+    assert "[shelter]" in problem.where
+    assert (problem.found, problem.allowed, problem.cure) == (found, allowed, cure)
+
+
+def test_the_schema_lists_the_words():
+    keys = json_schema()["$defs"]["ShelterSpec"]["properties"]
+    assert keys["wake"]["anyOf"][0]["enum"] == ["off", "loland", "momentum", "cheng"]
+    assert keys["twines"]["enum"] == ["off", "cheng"]
