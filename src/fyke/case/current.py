@@ -181,11 +181,11 @@ class Current(Table):
 
     @property
     def lowest(self) -> float | None:
-        """Last depth (m) of a table, of layers or of the file, below which its velocity is held; None without one."""
+        """Last depth (m) of a table or of the file, below which its velocity is held; None without one."""
         if self._path is not None:
             depths = read_current(self._path, self._depth).depths
             return float(depths[-1]) if len(depths) > 1 else None
-        return self.profile.depth[-1] if isinstance(self.profile, DepthTable) else None
+        return self.profile.depth[-1] if isinstance(self.profile, TableProfile) else None
 
     @property
     def described(self) -> str:

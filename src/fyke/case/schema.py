@@ -16,6 +16,7 @@ from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec
 from .quantity import Quantity, wrong
+from .shelter import ShelterSpec
 from .twine import TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -135,6 +136,7 @@ class Case(Table):
     )
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
+    shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
     solve: SolveSpec = Field(default=StaticSolve(), description="how to solve")
     output: Output = Field(default=Output(), description="what to write")
     compare: Compare | None = Field(default=None, description="measurements")

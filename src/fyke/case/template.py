@@ -95,6 +95,10 @@ knots = 0.5
 # bars = "lee"                       # sine of the angle between bar and flow; or potential-flow
 # bars = { law = "table", angle = ["0 deg", "90 deg"], coefficient = [0.1, 1.0] }    # or a file by angle
 
+[shelter]                            # what netting leaves of the current; off unless asked for
+# wake = "loland"                    # behind it: off | loland | momentum | cheng, or a factor from 0 to 1
+# twines = "cheng"                   # between the twines of a panel that leans: off | cheng
+
 [solve]
 kind = "static"                      # static | dynamic
 # tolerance = 1e-8                   # N, largest unbalanced force on a free knot

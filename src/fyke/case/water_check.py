@@ -34,7 +34,8 @@ def current_findings(parts: Parts) -> Iterator[Finding]:
     if not isinstance(parts.raw.get("current"), dict):
         return
     yield from _choice(keys)
-    yield from _pair(("current",), keys)
+    if "file" not in keys:
+        yield from _pair(("current",), keys)
     yield from _profile(parts, keys)
     if "at" in keys and "file" not in keys:
         cure = "leave at out: there is no other time to begin at"
@@ -126,9 +127,10 @@ def _choice(keys: dict[str, Any]) -> Iterator[Finding]:
             cure = f"leave {key} out here; the profile has its own velocities"
             yield ("current", key), found, f"{key} of the whole water or of a power law", cure
     elif "velocity" in keys:
-        for key in given[1:]:
-            cure = f"leave out {key} or velocity"
-            yield ("current", key), f"both velocity and {key}", "velocity, or speed and direction", cure
+        more = " and ".join(given[1:])
+        if more:
+            allowed, cure = "velocity, or speed and direction", f"leave out {more}, or velocity"
+            yield ("current", given[1]), f"both velocity and {more}", allowed, cure
     elif not given and (profile is None or kind == "power") and keys.keys() <= Current.model_fields.keys():
         allowed = "velocity, or speed and direction, or a file"
         yield ("current", "velocity"), "nothing of these", allowed, f"add {_EXAMPLE}"

@@ -17,7 +17,7 @@ Stretching = Literal["wheeler", "none", "formula"]
 LOG2_E = 1.0 / math.log(2.0)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Motion:
     """What the waves do at n points: velocity (n, 3) m/s, acceleration (n, 3) m/s2 and the elevation (n,) m there."""
 
@@ -81,7 +81,7 @@ def harmonics(
     )
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Waves:
     """A sea. Airy, Stokes and irregular seas differ in their harmonics only.
 
