@@ -39,6 +39,8 @@ def flows(count=200, seed=1):
 
 def law_at(w, t, el):
     """c_n, c_t and their slopes of a bar along t in water of this velocity past it."""
+    if el.plain:
+        return float(el.normal_drag[0]), float(el.tangential_drag[0]), 0.0, 0.0, 0.0, 0.0
     out = np.empty((6, 1))
     coefficients_of_bars(LENGTH * np.array([[0.0, 0.0, 0.0], t]), np.array([w, w]), el, out)
     return tuple(out[:, 0].tolist())
