@@ -7,7 +7,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ..system.system import State, System
-from .bars import add_tension, bar_geometry, elastic, largest_on_free, water_load
+from .bars import add_tension, bar_geometry, elastic, largest_on_free
 from .compiled import OPTIONS
 from .drag import bar_water_force
 from .frame import Frame
@@ -46,6 +46,13 @@ def bar_tensions(system: System, state: State, t: Array, length: Array) -> Array
     return np.maximum(tension, 0.0)
 
 
+def _share_with_bars(forces: Array, sides: NDArray[np.int64], out: Array) -> None:
+    """Add the forces of faces (p, 3) N in equal parts to the bars along their sides (p, 4), -1 for none."""
+    share = forces / np.maximum((sides >= 0).sum(axis=1), 1)[:, None]
+    for side in sides.T:
+        np.add.at(out, side[side >= 0], share[side >= 0])
+
+
 def evaluate(system: System, state: State) -> Frame:
     """Work out all forces of a state; shapes and units are those of Frame."""
     n, m = system.net.knot_count, system.net.bar_count
@@ -57,7 +64,9 @@ def evaluate(system: System, state: State) -> Frame:
     tension = bar_tensions(system, state, t, length) if state.tension is None else state.tension
     rel, on_bars, total = u - state.velocity, np.empty((m, 3)), np.empty((n, 3))
     _water_on_bars(rel, el, t, length, on_bars)
-    water_load(rel, el, t, length, total)
+    surroundings.load(state.position, rel, el, t, length, total)
+    if surroundings.screens is not None and surroundings.faces is not None:
+        _share_with_bars(surroundings.screens.forces(state.position, rel), surroundings.faces.bars, on_bars)
     water = total - system.elements.weight
     add_tension(tension, el, t, total)
     flow = 0.5 * (u[el.knot_a] + u[el.knot_b])

@@ -17,10 +17,14 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from ..netting.faces import faces_of
 from ..system.elements import Elements
 from ..system.system import Displaced, System
+from .bars import water_load
 from .compiled import OPTIONS
 from .laws import coefficients_of_bars, coefficients_of_knots
+from .screens import Screens
+from .shelter import Shelter
 from .total import TINY_LENGTH
 
 Array = NDArray[np.float64]
@@ -100,12 +104,21 @@ class Surroundings:
         self._radius = 0.5 * net.bar_diameter, 0.5 * net.knot_diameter
         self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
         self._by_angle = not c.bar_mass.constant
+        self.faces = faces_of(net) if c.screens or c.wake or c.twines else None
+        self.screens: Screens | None = None
+        self._shelter: Shelter | None = None
+        self._left = np.ones((net.knot_count, 1))
+        viscosity = system.water.kinematic_viscosity
+        if self.faces is not None and c.screens is not None:
+            self.screens = Screens.of(self.faces, c.screens, system.water.density, viscosity)
+        if self.faces is not None and (c.wake or c.twines):
+            self._shelter = Shelter(self.faces, c.wake, c.twines, viscosity)
 
     @property
     def steady(self) -> bool:
         """Whether water and elements stay the same under the surface, whatever the net's shape and the time."""
         s = self.system
-        return s.current.steady and s.current.uniform and not (s.waves or self._by_angle)
+        return s.current.steady and s.current.uniform and not (s.waves or self._by_angle or self._shelter)
 
     @property
     def constant(self) -> bool:
@@ -116,12 +129,35 @@ class Surroundings:
         """Whether knots at x (n, 3) m that rise by this much (m) come out of still water."""
         return self.system.surface and float(x[:, 2].max(initial=-np.inf)) + rise > -self._reach
 
-    def renew(self, x: Array, time: float) -> None:
-        """Find the shelter of positions x (n, 3) m."""
+    def renew(self, x: Array, time: float, *, mean: bool = False) -> None:
+        """Find the shelter of positions x (n, 3) m, which holds until the next renewal; mean: of the last and this."""
+        if self._shelter is not None:
+            left = self._shelter.factors(x, self.system.current.velocity(x, time))[:, None]
+            self._left = 0.5 * (self._left + left) if mean else left
+
+    @property
+    def shelters(self) -> bool:
+        """Whether netting slows the current."""
+        return self._shelter is not None
+
+    @property
+    def groups(self) -> NDArray[np.int64] | None:
+        """Knots (p, 4) that act on each other besides those of the bars."""
+        return None if self.screens is None or self.faces is None else self.faces.corners
+
+    def load(self, x: Array, rel: Array, el: Elements, t: Array, length: Array, out: Array) -> None:
+        """Weight, buoyancy and water on every knot into out (n, 3) N; el and rel (n, 3) m/s as `at` gives them.
+
+        t, length: (m, 3), (m,) m, of the bars.
+        """
+        water_load(rel, el, t, length, out)
+        if self.screens is not None:
+            self.screens.add_load(x, rel, out)
 
     def velocity(self, x: Array, time: float) -> Array:
         """Velocity of the current at knots x (n, 3) m, sheltered, waves left out, (n, 3) m/s."""
-        return self.system.current.velocity(x, time)
+        u = self.system.current.velocity(x, time)
+        return u if self._shelter is None else self._left * u
 
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).

@@ -61,8 +61,10 @@ class Auto:
         if not (self.rtol >= 0.0 and self.atol > 0.0):
             raise ValueError(f"rtol {self.rtol:g} must not be below 0 and atol {self.atol:g} must be above 0")
 
-    def start(self, system: System, state: State) -> AutoRun:
-        """Begin a run."""
+    def start(self, system: System, state: State) -> AutoRun | ImplicitRun:
+        """Begin a run; screens are for the implicit method alone."""
+        if system.coefficients.screens is not None:
+            return Implicit(self.rtol, self.atol, self.max_step).start(system, state)
         return AutoRun(self, system, state)
 
     def stability_bound(self, system: System, state: State) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free, water_load
+from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import State, System
@@ -69,8 +69,8 @@ class Equilibrium:
     def __init__(self, system: System, start: State, linear: Factorizer | None) -> None:
         self.system, self.el = system, system.elements
         self.surroundings, self.time = Surroundings(system), start.time
+        self.pattern = Pattern.of(self.el, self.surroundings.groups)
         self.surroundings.renew(start.position, start.time)
-        self.pattern = Pattern.of(self.el)
         self.linear = linear or factorizer(self.pattern)
         # About the net's middle, coordinates are smallest and so is their rounding.
         self.origin = start.position.mean(axis=0)
@@ -94,18 +94,30 @@ class Equilibrium:
         b, el = self.b, self.el
         bar_geometry(self.x, el, b.t, b.length)
         elastic(b.length - el.rest_length, el, b.f, b.k)
-        water_load(self.u, el, b.t, b.length, b.load)
+        self.surroundings.load(self.x, self.u, el, b.t, b.length, b.load)
         b.total[:] = b.load
         add_tension(np.maximum(b.f, 0.0), el, b.t, b.total)
         worst, where = largest_on_free(b.total, el.free)
         return float(worst), int(where)
 
+    def renew(self, *, mean: bool) -> None:
+        """Find the shelter of the present shape, or the mean of the last and this one, and the forces in it."""
+        self.surroundings.renew(self.x + self.origin, self.time, mean=mean)
+        self.residual, self.worst = self.true_residual()
+
     def factor(self) -> Solve:
         """Factorize the tangent for the present stiffness blocks."""
-        b = self.b
-        assemble(b.block, self.u, self.el, b.t, self.pattern.start, self.pattern.stride, b.data)
+        self.assemble()
         self.factorizations += 1
-        return self.linear.factor(b.data)
+        return self.linear.factor(self.b.data)
+
+    def assemble(self) -> None:
+        """Put the tangent together for the present stiffness blocks."""
+        b, p = self.b, self.pattern
+        assemble(b.block, self.u, self.el, b.t, p.start, p.stride, b.data)
+        screens = self.surroundings.screens
+        if screens is not None:
+            screens.assemble(self.x, self.u, 1.0, 0.0, p.groups, symmetric=False, data=b.data)
 
     def move(self, solve: Solve) -> None:
         """Motion of the free knots for the present right side."""

@@ -30,6 +30,8 @@ class HeldWater:
     """Elements and water for one span after the other."""
 
     def __init__(self, system: System, state: State) -> None:
+        if system.coefficients.screens is not None:
+            raise ValueError("screens need an implicit method: take Implicit, Newmark or Auto")
         self._around = Surroundings(system)
         self._around.renew(state.position, state.time)
         self._present = self._around.given(state.position, state.velocity, state.time)

@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import bar_geometry, elastic, water_load
+from ..forces.bars import add_tension, bar_geometry, elastic
+from ..forces.evaluate import bar_tensions
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.surroundings import Surroundings
-from ..forces.total import total_force, work_arrays
 from ..system.system import State, System
 from .equilibrium import typical_tension
 from .linear import SingularMatrixError
@@ -152,21 +152,21 @@ class ImplicitRun:
 
     def _beginning(self) -> tuple[Array, Array, Array]:
         """Acceleration (n, 3), law (m,) and load (n, 3) of the state at the beginning."""
-        given, self.u = self.surroundings.given(self.x, self.v, self.time)
-        el, bars = self.surroundings.at(self.x, self.v, self.time)[0], self.system.net.bar_count
-        rel, g = work_arrays(len(self.x))
-        force, a, load, inverse = (np.zeros((len(self.x), width)) for width in (3, 3, 3, 6))
-        total_force(self.x, self.v, self.u, given, rel, g, force)
+        el, self.u = self.surroundings.at(self.x, self.v, self.time)
+        bars = self.system.net.bar_count
+        a, load, inverse = (np.zeros((len(self.x), width)) for width in (3, 3, 6))
+        t, length, f, k = np.zeros((bars, 3)), np.zeros(bars), np.zeros(bars), np.zeros(bars)
+        bar_geometry(self.x, el, t, length)
+        elastic(length - el.rest_length, el, f, k)
+        self.surroundings.load(self.x, self.u - self.v, el, t, length, load)
+        force = load.copy()
+        add_tension(bar_tensions(self.system, self.state, t, length), el, t, force)
         mass_matrices(self.x, el, inverse)
         invert_masses(inverse, el.free)
         i = inverse
         a[:, 0] = i[:, 0] * force[:, 0] + i[:, 3] * force[:, 1] + i[:, 4] * force[:, 2]
         a[:, 1] = i[:, 3] * force[:, 0] + i[:, 1] * force[:, 1] + i[:, 5] * force[:, 2]
         a[:, 2] = i[:, 4] * force[:, 0] + i[:, 5] * force[:, 1] + i[:, 2] * force[:, 2]
-        t, length, f, k = np.zeros((bars, 3)), np.zeros(bars), np.zeros(bars), np.zeros(bars)
-        bar_geometry(self.x, el, t, length)
-        elastic(length - el.rest_length, el, f, k)
-        water_load(self.u - self.v, el, t, length, load)
         return a, f, load
 
     def advance(self, end: float) -> Status:

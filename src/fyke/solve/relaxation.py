@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..forces.bars import add_tension, assemble, largest_on_free
+from ..forces.bars import add_tension, largest_on_free
 from ..forces.compiled import OPTIONS
 from . import central_path as path
 from .equilibrium import Equilibrium, typical_tension
@@ -139,7 +139,7 @@ class Relaxation:
         s, b, el = self.s, self.s.b, self.s.el
         smooth_bars(self.T, self.w, b.f, self.mu, self.p, self.r, self.c)
         relaxing_stiffness(self.p, self.T, b.k, b.t, b.length, el.rest_length, self.along, b.block)
-        assemble(b.block, s.u, el, b.t, s.pattern.start, s.pattern.stride, b.data)
+        s.assemble()
         add_drag(self.drag / self.h, s.pattern.diagonal, b.data)
         s.factorizations += 1
         return s.linear.factor(b.data)

@@ -44,6 +44,9 @@ SHORT, SHORT_STEPS = 1e-2, 5
 WARM_STEPS = 25
 # The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
 PATIENCE = 50
+# Renewals of the shelter; from SETTLING on the mean of the old and the new one is taken, which ends steps to and fro.
+# Between two renewals the unbalanced force falls to CLOSER of what the last one made.
+MOST_RENEWALS, SETTLING, CLOSER = 40, 15, 0.02
 # Floating parts that are named one by one.
 NAMED_PARTS = 3
 
@@ -66,9 +69,10 @@ def solve_static(
     the real meshes, its message names the others. How it ended is the result's outcome; a solve that fails or is
     stopped by Ctrl-C returns the last good state. Held knots stay where the net has them, whatever the start. Raises
     ValueError for a tolerance that is not above zero, less than one iteration, and a start of another shape or with
-    values that are no numbers.
+    values that are no numbers. Waves are left out.
     """
     began = time.perf_counter()
+    system = replace(system, waves=None)
     begin = _begin(system, tolerance, max_iterations, start)
     nest = _nested(system, begin, tolerance, on_progress)
     begin = nest.start if nest else begin
@@ -83,6 +87,8 @@ def solve_static(
     else:
         try:
             name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
+            if name == "converged" and s.surroundings.shelters:
+                name, message, advice = _with_shelter(s, tolerance, max_iterations, on_progress)
         except KeyboardInterrupt:
             name, message, advice = _interrupted(s)
         except MemoryError as error:
@@ -140,7 +146,10 @@ def _nested(system: System, begin: State, tolerance: float, on_progress: Progres
     def solve(coarse: System, at: State, loosely: float) -> Result:
         return solve_static(coarse, tolerance=loosely, start=at, on_progress=report)
 
-    return nested_start(system, begin, tolerance, solve) if begin.tension is None else None
+    c = system.coefficients
+    # Faces of grouped meshes are not those of the real ones.
+    by_faces = c.screens or c.wake or c.twines
+    return nested_start(system, begin, tolerance, solve) if begin.tension is None and not by_faces else None
 
 
 def loose_parts(system: System) -> list[NDArray[np.int64]]:
@@ -210,6 +219,25 @@ def _iterate(
             "",
         )
     return _out_of_iterations(s) if fault is None else _no_inverse(s, fault)
+
+
+def _with_shelter(s: Equilibrium, tolerance: float, limit: int, on_progress: Progress | None) -> Verdict:
+    """Renew the shelter at the shape found and go on from there, until it leaves the net where it is."""
+    for renewal in range(1, MOST_RENEWALS + 1):
+        s.renew(mean=renewal > SETTLING)
+        if s.residual <= max(tolerance, s.floor):
+            found = f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations"
+            return "converged", f"{found}, shelter renewed {renewal} times", ""
+        near_by = max(tolerance, CLOSER * s.residual)
+        tension = np.maximum(s.b.f, 0.0)
+        verdict = _iterate(s, near_by, s.iterations + limit, tension, on_progress)
+        if verdict[0] != "converged":
+            return verdict
+    return (
+        "stalled",
+        f"the shelter still moves the net after {MOST_RENEWALS} renewals, by {s.residual:.1e} N",
+        "leave the wake out, or take a factor for it; knots at its rim may step in and out of it",
+    )
 
 
 def _interior_point(

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import bar_geometry, elastic, water_load
+from ..forces.bars import bar_geometry, elastic
 from ..forces.inertia import mass_matrices
 from ..forces.surroundings import Surroundings
 from .central_path import bar_changes, second_order
@@ -59,7 +59,7 @@ class StepNewton:
         self.surroundings, self.u, self.mu, self.scale = surroundings, u, mu, scale
         el = self.el = surroundings.system.elements
         n, m = len(el.free), len(el.knot_a)
-        self.pattern = Pattern.of(el)
+        self.pattern = Pattern.of(el, surroundings.groups)
         self.symmetric = self.pattern.size > SMALL
         self.linear = factorizer(self.pattern, symmetric=self.symmetric)
         z = np.zeros
@@ -138,7 +138,7 @@ class StepNewton:
         mass_matrices(self.x, el, self.mass)
         self.evaluations += 1
         self.rel = self.u - self.v
-        water_load(self.rel, el, self.t, self.length, self.load)
+        self.surroundings.load(self.x, self.rel, el, self.t, self.length, self.load)
         smooth_bars(self.T, self.w, self.f, self.mu, self.p, self.r, self.c)
 
     def _factor(self) -> Solve:
@@ -152,6 +152,11 @@ class StepNewton:
             self.rel, self.el, self.t, self.length, self.T, self.along, 1.0, c1 / c0, 1.0 / c0, self.mass,
             self.symmetric, p.start, p.stride, p.diagonal, self.data,
         )  # fmt: skip
+        screens = self.surroundings.screens
+        if screens is not None:
+            screens.assemble(
+                self.x, self.rel, 1.0, c1 / c0, p.groups, symmetric=self.symmetric, data=self.data
+            )
         self.factorizations += 1
         return self.linear.factor(self.data)
 

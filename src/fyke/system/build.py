@@ -74,6 +74,8 @@ def _coefficients(case: Case) -> Coefficients:
         screens=case.drag.panel_law(),
         added_mass_bar=case.added_mass.bar_law(folder=case.folder),
         added_mass_knot=case.added_mass.knot_coefficient(),
+        wake=case.shelter.wake_law(),
+        twines=case.shelter.twine_law(),
     )
 
 
@@ -140,6 +142,10 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     """Fields of Elements that say how the water drags."""
     bars, knots = c.bars, c.knots
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
+    if c.screens is not None:
+        for panel in net.panels:
+            scale[slice(*panel.bars)] = 0.0
+            disc[slice(*panel.knots)] = 0.0
     zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
     fields: dict[str, Any] = {
         "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,

@@ -8,6 +8,7 @@ from ..water.inertia import AddedMassLaw, ConstantAddedMass
 from ..water.laws import BarLaw, KnotLaw, PanelLaw
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
+from ..water.wakes import TwineLaw, WakeLaw
 
 
 @dataclass(frozen=True)
@@ -24,7 +25,8 @@ class Coefficients:
     """Laws of drag, and added mass over that of the displaced water.
 
     bars: on the area d x current length, normal and tangential (both; no pi); knots: on pi/4 d_k^2; screens: of whole
-    meshes on their outline, in place of the drag of bars and knots of netting; added_mass_bar: normal to the bar only.
+    meshes on their outline, in place of the drag of bars and knots of netting; added_mass_bar: normal to the bar only;
+    wake, twines: shelter behind netting and between the twines of it.
     Defaults: Bessonneau & Marichal 1998 for the bars, potential flow for the added masses (cylinder 1, sphere 1/2).
     """
 
@@ -33,6 +35,8 @@ class Coefficients:
     screens: PanelLaw | None = None
     added_mass_bar: float | AddedMassLaw = 1.0
     added_mass_knot: float = 0.5
+    wake: WakeLaw | None = None
+    twines: TwineLaw | None = None
 
     @property
     def bar_mass(self) -> AddedMassLaw:
