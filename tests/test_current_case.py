@@ -15,8 +15,10 @@ from fyke.case import Case, CaseError, load_case, parse_case, recorded_case
 from fyke.case.current_file import MOST_PROBLEMS, read_current
 from fyke.cli.check import judge
 from fyke.cli.export import case_of
+from fyke.cli.report import LOST, report_result
 from fyke.live.knobs import knobs_of, turned
 from fyke.live.study import Study
+from fyke.results import save
 from fyke.solve.static import solve_static
 from fyke.system.build import build_net, build_system
 from fyke.water import LayerCurrent, PowerCurrent, RampedCurrent, SeriesCurrent, TableCurrent, UniformCurrent
@@ -212,7 +214,7 @@ def write_netcdf(file, *, changes=(), drop=()):
         "u": (("time", "level"), u, {"units": "m s-1", "scale_factor": 0.01, "_FillValue": np.int16(-999)}),
         "v": (("level", "time", "place"), v, {"units": "m/s"}),
     }
-    variables |= {name: (*variables.get(name, ((), 0, {}))[:0], *value) for name, value in changes}
+    variables |= dict(changes)
     with h5netcdf.File(file, "w") as new:
         new.dimensions = {"time": 2, "level": 3, "place": 1, "other": 2}
         for name, (dims, values, attributes) in variables.items():
@@ -616,8 +618,11 @@ def test_result_whose_file_is_gone_is_shown_without_its_case(tmp_path, monkeypat
     result = solve_static(build_system(build_net(case), case))
     monkeypatch.chdir(tmp_path)
     assert case_of(result).current.at_surface == (0.5, 0.0, 0.0)
+    save(result, tmp_path / "result.nc")
     os.remove(tmp_path / "current.csv")
     assert case_of(result) is None
+    assert report_result(tmp_path / "result.nc", tmp_path / "r.html", None, overwrite=False) == 0
+    assert LOST in (tmp_path / "r.html").read_text().replace("&#39;", "'")
     with pytest.raises(CaseError, match="no such file"):
         recorded_case(result.case_text).current.flow()
 

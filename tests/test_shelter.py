@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -395,6 +396,75 @@ def test_bars_with_shelter_between_twines_come_within_20_percent_of_the_measured
     error = 100.0 * (found / table[:, 1] - 1.0)
     assert error == pytest.approx(expected, abs=0.06)
     assert np.all(np.abs(error) < 20.0)
+
+
+ACROSS = 2.8 / 29.0 * 1.2  # C_D of the upright twines, at every angle
+
+
+def level(angle):
+    """C_D of the twines that turn along the current; angle: rad."""
+    return 2.8 / 29.0 * (1.2 * np.cos(angle) ** 3 + 0.1 * np.sin(angle) ** 3)
+
+
+def screened(angle):
+    """C_D by momentum theory on the area across the current, with the drag that it leaves."""
+    bars = ACROSS + level(angle)
+    drag = bars.copy()
+    for _ in range(300):
+        r = np.sqrt(1.0 - drag / np.cos(angle))
+        drag = 0.5 * (drag + bars * np.minimum(1.0, r / r[0]) ** 2)
+    return drag
+
+
+def in_free_wakes(angle):
+    """C_D with each upright twine in the wakes of those before it by Huse's formula, deficits added in squares."""
+    spacing, thick = 0.029, 2.8e-3
+    which = np.arange(1, 34)
+    x = which * spacing * np.sin(angle)[:, None] + 4.0 * thick / 1.2
+    width = 0.25 * np.sqrt(1.2 * thick * x)
+    beside = which * spacing * np.cos(angle)[:, None] / width
+    deficit = np.sqrt(1.2 * thick / x) * np.exp(-0.693 * beside**2)
+    total = np.sqrt(np.cumsum(np.pad(deficit, ((0, 0), (1, 0))) ** 2, axis=1))
+    return ACROSS * np.mean((1.0 - total) ** 2, axis=1) + level(angle)
+
+
+def test_the_tables_of_the_page_are_as_worked_out_here():
+    table = measured.panel()
+    angle, drag = table[:, 0], table[:, 1]
+    bars, r = ACROSS + level(angle), ChengTwines().factor(angle, 0.2)
+    with_it = bars * r**2
+    wake = np.loadtxt(Path(__file__).parent / "data" / "panel_wake.csv", delimiter=",", skiprows=5)[:, 1]
+
+    def error(found):
+        return 100.0 * (found / drag - 1.0)
+
+    expected = {
+        "measured $r$": wake,
+        **{
+            law.name: 100.0 * (law.factor(angle, 0.2) / wake - 1.0)
+            for law in (LolandWake(), MomentumWake(), ChengWake())
+        },
+        "measured $C_D$": drag,
+        "bars": bars,
+        'bars with `twines = "cheng"`': with_it,
+        "error of bars": error(bars),
+        'error with `twines = "cheng"`': error(with_it),
+        "the same, solidity 0.184": error(bars * ChengTwines().factor(angle, 0.18378) ** 2),
+        "on twines across the current only": error(ACROSS * r**2 + level(angle)),
+        "the whole wake, not the ratio": error(bars * ChengWake().factor(angle, 0.2) ** 2),
+        "momentum theory on the area across the current": error(screened(angle)),
+        "free wakes of single cylinders": error(in_free_wakes(angle)),
+    }
+    page = (Path(__file__).parents[1] / "docs" / "shelter.md").read_text(encoding="utf-8")
+    rows = {
+        cells[0]: cells[1:]
+        for line in page.splitlines()
+        if len(cells := [cell.strip() for cell in line.strip("|").split("|")]) == 7
+    }
+    for name, values in expected.items():
+        digits = [len(cell.partition(".")[2]) for cell in rows[name]]
+        written = [f"{value:.{count}f}" for value, count in zip(values, digits, strict=True)]
+        assert rows[name] == written, name
 
 
 def test_twines_of_a_bent_panel_are_sheltered_by_the_angle_at_each_knot():

@@ -323,8 +323,9 @@ def test_without_stretching_the_motion_of_still_water_is_held_above_it():
     assert at(sea, [0.0, 0.0, -0.9])[0][0] < still[0][0]
 
 
-def test_a_bed_that_falls_dry_has_no_motion():
-    sea = replace(airy(2.0, 8.0, phase=math.pi, depth=20.0), depth=0.8)  # a trough deeper than the water
+@pytest.mark.parametrize("depth", [0.8, 1.0])
+def test_a_bed_that_falls_dry_has_no_motion(depth):
+    sea = replace(airy(2.0, 8.0, phase=math.pi, depth=20.0), depth=depth)  # a trough as deep as the water
     moved = sea.motion(np.array([[0.0, 0.0, z] for z in (-3.0, -1.0, -0.8, -0.4, 0.5)]), 0.0)
     assert not moved.velocity.any() and not moved.acceleration.any()
     assert moved.elevation == pytest.approx(-1.0)
@@ -424,6 +425,17 @@ def test_the_same_seed_gives_the_same_sea():
     assert abs(motion(5) - motion(6)).max() > 0.1
 
 
+def test_directions_are_dealt_to_neighbouring_frequencies_in_random_order():
+    def hands(seed):
+        parts = irregular(2.0, 8.0, gamma=3.3, seed=seed, spreading=SPREAD, components=150).harmonics
+        return np.arctan2(parts.turns_y, parts.turns_x).reshape(10, 15)
+
+    dealt, all_of_them = hands(1), SPREAD.angles(15)
+    assert np.sort(dealt, axis=1) == pytest.approx(np.tile(all_of_them, (10, 1)), abs=1e-12)
+    assert len({tuple(np.argsort(hand)) for hand in dealt}) == 10
+    assert np.array_equal(dealt, hands(1)) and not np.array_equal(dealt, hands(2))
+
+
 def test_the_record_does_not_repeat_within_three_hours():
     frequency = irregular(2.0, 10.0, gamma=3.3).harmonics.frequency
     later = np.arange(200.0, 10_800.0)
@@ -443,7 +455,7 @@ def test_a_record_has_its_significant_height_and_peak_period(seed):
         irregular(height, period, gamma=3.3, seed=seed, depth=40.0), np.arange(0.0, 6.0 * 3600.0, step)
     )
     assert 4.0 * eta.std() == pytest.approx(height, rel=0.02)
-    # Young's estimate of the peak, the mean frequency weighted with S^4: 0.9 % above it, and its period below, for JONSWAP itself.
+    # Young's estimate of the peak, the mean frequency weighted with S^4: of JONSWAP itself its period is 0.9 % short.
     f, spectrum = welch(eta, 1.0 / step, nperseg=640)
     found = (spectrum**4).sum() / (f * spectrum**4).sum()
     assert found == pytest.approx(period, rel=0.02)

@@ -15,6 +15,10 @@ from .show import DONE, WRONG_INPUT, print_problems, print_warnings, stderr, std
 from .texts import sources_of
 
 REPORT = "report.html"
+LOST = (
+    "the case of this result is of another version, or a file that it names is not in the present folder: "
+    "accounts, sources, drag and lift are left out"
+)
 
 
 def report_result(file: Path, output: Path | None, positions: Path | None, *, overwrite: bool) -> int:
@@ -35,6 +39,8 @@ def report_result(file: Path, output: Path | None, positions: Path | None, *, ov
         case, system = behind(result)
         comparison, warnings = _measured(result, case, source, positions)
         figures = _figures(result, case, system)
+        if case is None and result.case_text:
+            warnings.append(LOST)
         figures["warnings"] += warnings
         sources = () if case is None or system is None else sources_of(case, system)
         origin = Origin(source, case, system, sources)

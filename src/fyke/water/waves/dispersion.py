@@ -9,8 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 Array = NDArray[np.float64]
 
-# From the start below, five steps of Newton leave nothing but rounding at any depth; one more is for safety.
-_STEPS = 6
+# From the start below, three steps of Newton leave nothing but rounding at any depth; one more is for safety.
+_STEPS = 4
 
 
 def wavenumber(omega: ArrayLike, depth: float, gravity: float) -> Array:
