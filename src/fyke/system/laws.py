@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from ..water.inertia import AddedMassLaw, ConstantAddedMass
-from ..water.laws import BarLaw, KnotLaw, PanelLaw
+from ..water.laws import BarLaw, KnotLaw
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
+from ..water.laws.panels import ScreenLaw
 from ..water.wakes import TwineLaw, WakeLaw
 
 
@@ -32,7 +33,7 @@ class Coefficients:
 
     bars: BarLaw = field(default_factory=ConstantBar)
     knots: KnotLaw = field(default_factory=ConstantKnot)
-    screens: PanelLaw | None = None
+    screens: ScreenLaw | None = None
     added_mass_bar: float | AddedMassLaw = 1.0
     added_mass_knot: float = 0.5
     wake: WakeLaw | None = None
