@@ -12,9 +12,10 @@ from pydantic import Field, create_model
 
 from ..netting.lattice import hanging_ratios
 from ..netting.measures import solidity
-from ..water.laws import LAWS, AngleTable, BarLaw, BarTable, KnotLaw, Law, PanelLaw
+from ..water.laws import LAWS, AngleTable, BarLaw, BarTable, KnotLaw, Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
+from ..water.laws.panels import ScreenLaw
 from .by_law import LawTable, by_law
 from .drag_table import BY_ANGLE, BY_SPEED, read_drag_table
 from .errors import CaseError, Problem
@@ -128,13 +129,13 @@ class Drag(Table):
         """Return the law of the knots."""
         return cast(KnotLaw, LAWS["knots"][self.knots.law](**self.knots.parameters()))
 
-    def panel_law(self) -> PanelLaw | None:
+    def panel_law(self) -> ScreenLaw | None:
         """Return the law of the meshes as screens; None where bars and knots have the drag."""
         if self.kind == "bars":
             return None
         if self.screens is None:
-            return cast(PanelLaw, LAWS["panels"][_SCREENS]())
-        return cast(PanelLaw, LAWS["panels"][self.screens.law](**self.screens.parameters()))
+            return cast(ScreenLaw, LAWS["panels"][_SCREENS]())
+        return cast(ScreenLaw, LAWS["panels"][self.screens.law](**self.screens.parameters()))
 
     @property
     def takes_solidity(self) -> bool:
