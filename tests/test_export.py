@@ -37,9 +37,9 @@ def made(frames: int) -> fyke.Result:
     for k in range(frames):
         at, speed, force = (random.normal(size=(n, 3)) for _ in range(3))
         pull = np.maximum(random.normal(size=m), 0.0)
-        whole = force.sum(axis=0)
+        flow, whole = random.normal(size=(m, 3)), force.sum(axis=0)
         told.append(
-            Frame(k / 7.0, at, speed, pull, pull / 3.0, pull / 7.0, force, whole, -whole, k / 3.0, 0.1)
+            Frame(k / 7.0, at, speed, pull, pull / 3.0, pull / 7.0, flow, force, whole, -whole, k / 3.0, 0.1)
         )
     outcome = fyke.Outcome("completed", "", "", "by hand", "", frames, 0, 0.1, 0.0, time=(frames - 1) / 7.0)
     return fyke.Result.from_frames(net, outcome, 0.25, told, case.text)

@@ -64,6 +64,7 @@ def make_frame(net: Net, number: int) -> Frame:
         tension=ramp(m),
         bar_drag=ramp(m) + 1.0,
         bar_lift=ramp(m) + 2.0,
+        water_velocity=ramp(m, 3) + 2.5,
         water_force=ramp(n, 3) + 3.0,
         hydrodynamic_force=ramp(3),
         support_reaction=ramp(3) + 4.0,
