@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-peers bench bench-million bench-peers bench-see bench-waves gallery format clean
+.PHONY: demo test test-peers bench bench-million bench-peers bench-screens bench-see bench-waves gallery format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -27,6 +27,9 @@ bench-million: $(VENV)/.installed-test
 
 bench-peers: $(VENV)/.installed-peers
 	@$(BIN)/python benchmarks/peers.py
+
+bench-screens: $(VENV)/.installed-test
+	@$(BIN)/python benchmarks/screens.py
 
 bench-see: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/see.py

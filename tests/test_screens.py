@@ -14,7 +14,7 @@ from fyke.forces.screen_laws import HIGHEST_REYNOLDS, LOWEST_REYNOLDS, in_tables
 from fyke.forces.screens import Screens
 from fyke.netting.faces import Faces, faces_of
 from fyke.solve.pattern import Pattern
-from fyke.water.laws import LAWS, cylinder, joints, measured, outside
+from fyke.water.laws import LAWS, PanelLaw, cylinder, joints, measured, outside
 from fyke.water.laws.panels import LEE_WIDTH, Aarsnes, Balash, Fridman, KristiansenFaltinsen, Lee, Loland
 
 SERIES = [KristiansenFaltinsen("sheet"), KristiansenFaltinsen("quasi-static")]
@@ -197,6 +197,17 @@ def test_laws_of_one_form_share_their_kernels(flat):
     load(Screens.of(faces_of(net), Loland(), DENSITY, VISCOSITY), x, rel)
     assert len(add_screens.signatures) == kernels
     assert in_tables(Aarsnes().form) == Aarsnes().form
+
+
+def test_a_law_without_a_formula_is_refused():
+    class Own(PanelLaw):
+        name = "own"
+
+        def coefficients(self, angle, solidity=0.0, reynolds=0.0):
+            return np.cos(angle), np.sin(angle)
+
+    with pytest.raises(TypeError, match="'own' has no formula for screens"):
+        Screens.of(one_face(), Own(), DENSITY, VISCOSITY)
 
 
 # Symmetry and sharing

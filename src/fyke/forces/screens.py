@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..netting.faces import Faces
+from ..water.laws import PanelLaw
 from ..water.laws.panels import ScreenLaw
 from .screen_faces import ScreenArrays, add_screens, screen_forces, screen_places
 from .screen_laws import in_tables
@@ -28,8 +29,13 @@ class Screens:
         self._tangents = np.zeros((p, 3, 3)), np.zeros((p, 3, 3))
 
     @classmethod
-    def of(cls, faces: Faces, law: ScreenLaw, density: float, viscosity: float) -> Screens:
-        """Return the screens of faces; density: of the water, kg/m3; viscosity: kinematic, m2/s."""
+    def of(cls, faces: Faces, law: PanelLaw, density: float, viscosity: float) -> Screens:
+        """Return the screens of faces; density: of the water, kg/m3; viscosity: kinematic, m2/s.
+
+        TypeError for a law without a formula for kernels, which every law of water.laws.panels has.
+        """
+        if not isinstance(law, ScreenLaw):
+            raise TypeError(f"panel law '{law.name}' has no formula for screens; derive it from ScreenLaw")
         arrays = ScreenArrays(
             corners=np.ascontiguousarray(faces.corners, dtype=np.uint32),
             share=np.ascontiguousarray(faces.share, dtype=np.float64),
