@@ -55,7 +55,9 @@ def frame_of(net: Net, position: np.ndarray, time: float = 0.0, force=(0.0, 0.0,
     tension = np.maximum(1e7 * TWINE.area * strain, 0.0)
     rest, flow = np.zeros_like(position), np.zeros(net.bar_count)
     total = np.array(force)
-    return Frame(time, position, rest, tension, flow, flow, np.zeros((len(flow), 3)), rest, total, total, energy, 0.0)
+    return Frame(
+        time, position, rest, tension, flow, flow, np.zeros((len(flow), 3)), rest, total, total, energy, 0.0
+    )
 
 
 def result_of(net: Net, position: np.ndarray | None = None) -> Result:

@@ -30,7 +30,9 @@ def swinging(frames: int = 5, every: float = 0.25) -> fyke.Result:
     for k in range(frames):
         at = net.positions + np.outer([0.0, 0.4, 0.8], [0.0, 1.0, 0.0]) * k / max(frames - 1, 1)
         pull, still, rest = np.array([1.0 + k, 0.0]), np.zeros(2), np.zeros((3, 3))
-        told.append(Frame(every * k, at, rest, pull, still, still, rest[:2], rest, np.zeros(3), np.zeros(3), 0.0, 0.0))
+        told.append(
+            Frame(every * k, at, rest, pull, still, still, rest[:2], rest, np.zeros(3), np.zeros(3), 0.0, 0.0)
+        )
     return fyke.Result.from_frames(net, OUTCOME, 0.0, told)
 
 
