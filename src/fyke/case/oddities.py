@@ -111,10 +111,14 @@ def _above_water(case: Case) -> Iterator[str]:
         steps = (grid.knots / np.array(grid.intervals) - 0.5) * np.array(panel.size)
         heights = panel.centre[2] + steps @ panel_axes(np.array(panel.normal))[:, 2]
         what = f"panel '{panel.name}'" if panel.name else "the panel"
-        air = "the current pushes on screens there all the same" if case.drag.kind == "screens" else "no drag there"
+        air = (
+            "though screens feel the current there, too"
+            if case.drag.kind == "screens"
+            else "and without drag"
+        )
         yield (
             f"{np.count_nonzero(heights > AT_SURFACE)} of {len(heights)} knots of {what} begin above the surface, up "
-            f"to z = {highest:.4g} m, with their weight in air and {air}; below still water z is negative."
+            f"to z = {highest:.4g} m, with their weight in air {air}; below still water z is negative."
         )
 
 

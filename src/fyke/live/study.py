@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..case import Case, CaseError, parse_case
 from ..case.schema import DynamicSolve
 from ..forces.evaluate import evaluate
+from ..forces.surroundings import Surroundings
 from ..results import flow_direction
 from ..results.derive import drag_and_lift
 from ..solve.implicit import Implicit
@@ -75,6 +76,15 @@ class Study:
         self.run: Run | None = None
         self._linear: tuple[bytes, Factorizer] | None = None
         self.result: Result = self._solved(self.system, None)
+
+    @property
+    def waves_note(self) -> str:
+        """What a reader must know of the waves of the case, "" without any."""
+        if self.case.waves is None:
+            return ""
+        if self._built.waves is None:
+            return "The waves of this case play no part: it is a static one."
+        return f"Waves ({self.case.waves.described}) act in motion only: the equilibrium is without them."
 
     @property
     def numbers(self) -> Numbers:
@@ -175,7 +185,7 @@ class Study:
         """Solver for the pattern of a system, the last one while the same knots are free."""
         free = system.elements.free.tobytes()
         if self._linear is None or self._linear[0] != free:
-            self._linear = free, factorizer(Pattern.of(system.elements))
+            self._linear = free, factorizer(Pattern.of(system.elements, Surroundings(system).groups))
         return self._linear[1]
 
     def play(self) -> None:
