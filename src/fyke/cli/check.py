@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..case import Case, CaseError, load_case
+from ..netting.faces import faces_of
 from ..netting.lattice import flat_strain
 from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Net, Panel
@@ -96,17 +97,15 @@ def judge(case: Case) -> dict[str, Any]:
 
 
 def _as_screens(net: Net, flow: Array, viscosity: float) -> tuple[Array, Array, Array]:
-    """Return solidity, angle (rad) between normal and flow, and Reynolds number of every flat panel as a whole."""
-    rows = []
-    for panel in net.panels:
-        velocity = flow[slice(*panel.knots)].mean(axis=0)
-        speed = float(np.linalg.norm(velocity))
-        through = abs(float(velocity @ np.cross(*panel.axes))) / speed if speed > 0.0 else 1.0
-        diameter = float(net.bar_diameter[panel.bars[0]])
-        solidity = measure_panel(net, panel).solidity
-        rows.append((solidity, np.arccos(min(through, 1.0)), speed * diameter / viscosity))
-    solid, angle, reynolds = np.array(rows).reshape(-1, 3).T
-    return solid, angle, reynolds
+    """Return solidity, angle (rad) between normal and flow, and Reynolds number of every face as hung."""
+    faces = faces_of(net)
+    velocity = np.einsum("pk,pkq->pq", faces.share, flow[faces.corners])
+    speed = np.linalg.norm(velocity, axis=1)
+    normal = faces.vector_area(net.positions)
+    along = np.abs(np.einsum("pq,pq->p", velocity, normal))
+    size = speed * np.linalg.norm(normal, axis=1)
+    through = np.divide(along, size, out=np.ones_like(size), where=size > 0.0)
+    return faces.solidity, np.arccos(np.minimum(through, 1.0)), speed * faces.diameter / viscosity
 
 
 def _span(values: Array) -> list[float]:
@@ -127,12 +126,12 @@ def _panel(case: Case, system: System, panel: Panel, across: Array, at_knots: Ar
         "meshes": list(panel.meshes),
         "size": list(panel.size),
         **asdict(measure_panel(net, panel)),
-        "fixed": int(np.count_nonzero(net.fixed[slice(*panel.knots)])),
+        "fixed": int(np.count_nonzero(net.fixed[np.unique(panel.knots)])),
         "strain": max(flat_strain(mesh, panel.meshes, panel.bar_length, panel.size)),
         "reynolds": speed * twine.diameter / case.water.kinematic_viscosity,
-        "reynolds_across": _span(across[slice(*panel.bars)]),
-        "reynolds_knots": _span(at_knots[slice(*panel.knots)])[1],
-        "damping_time": float(system.elements.damping_time[slice(*panel.bars)].max()),
+        "reynolds_across": _span(across[panel.bars]),
+        "reynolds_knots": _span(at_knots[panel.knots])[1],
+        "damping_time": float(system.elements.damping_time[panel.bars].max()),
         "damping_source": twine.damping_source,
     }
 

@@ -92,14 +92,14 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     twine = next(t for t in net.twines if t.name == panel.twine)
     mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
     ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
-    density = float(np.mean(net.knot_density[slice(*panel.knots)]))
+    density = float(np.mean(net.knot_density[panel.knots]))
     cell_mass = 2.0 * panel.bar_length * twine.density * twine.area
     cell_mass += density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
         outline_area=panel.size[0] * panel.size[1],
         solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
-        twine_area=float(twine.diameter * np.sum(net.rest_length[slice(*panel.bars)])),
+        twine_area=float(twine.diameter * np.sum(net.rest_length[np.unique(panel.bars)])),
         mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),
         mesh_length=2.0 * panel.bar_length,
         rtex=twine.density * twine.area * KILOGRAM_PER_METRE_IN_TEX,

@@ -20,8 +20,8 @@ def together(parts: Sequence[Net]) -> Net:
     panels = tuple(
         replace(
             panel,
-            knots=(panel.knots[0] + int(k), panel.knots[1] + int(k)),
-            bars=(panel.bars[0] + int(b), panel.bars[1] + int(b)),
+            knots=panel.knots + k,
+            bars=panel.bars + b,
         )
         for p, k, b in zip(parts, knots, bars, strict=False)
         for panel in p.panels

@@ -9,6 +9,7 @@ from dataclasses import fields
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, TableLaw
 from ..netting.net import Panel
@@ -16,7 +17,7 @@ from ..netting.twine import Twine
 from ..solve.outcome import Outcome
 
 LAWS: dict[str, type[Any]] = {"linear": LinearLaw, "power": PowerLaw, "table": TableLaw}
-PANEL_ARRAYS = ("centre", "axes")
+PANEL_ARRAYS = ("knots", "bars")
 
 
 def _own(noun: Any) -> dict[str, Any]:
@@ -52,19 +53,42 @@ def twines_from_text(text: str) -> tuple[Twine, ...]:
 
 
 def panels_to_text(panels: tuple[Panel, ...]) -> str:
-    """Write panels as JSON."""
+    """Write panels as JSON, their long arrays of numbers in runs that rise by 1: first, count, first, count ..."""
     return json.dumps(
-        [_own(p) | {name: getattr(p, name).tolist() for name in PANEL_ARRAYS} for p in panels],
+        [
+            _own(p) | {name: _runs(getattr(p, name)) for name in PANEL_ARRAYS} | {"segments": p.bars.shape[1]}
+            for p in panels
+        ],
         allow_nan=False,
     )
 
 
+def _runs(numbers: NDArray[np.int64]) -> list[int]:
+    flat = numbers.ravel()
+    first = np.flatnonzero(np.diff(flat, prepend=-2) != 1)
+    counts = np.diff(first, append=len(flat))
+    return np.column_stack([flat[first], counts]).ravel().tolist()
+
+
+def _from_runs(runs: list[int]) -> NDArray[np.int64]:
+    pairs = np.array(runs, dtype=np.int64).reshape(-1, 2)
+    return np.repeat(pairs[:, 0], pairs[:, 1]) + _within(pairs[:, 1])
+
+
+def _within(counts: NDArray[np.int64]) -> NDArray[np.int64]:
+    """0, 1 .. of every run, one after the other."""
+    begin = np.cumsum(counts) - counts
+    return np.asarray(np.arange(int(counts.sum())) - np.repeat(begin, counts))
+
+
 def panels_from_text(text: str) -> tuple[Panel, ...]:
     """Read what `panels_to_text` wrote."""
-    return tuple(
-        Panel(**(_tuples(noun) | {name: np.array(noun[name], dtype=float) for name in PANEL_ARRAYS}))
-        for noun in json.loads(text)
-    )
+    panels = []
+    for noun in json.loads(text):
+        knots, bars = (_from_runs(noun[name]) for name in PANEL_ARRAYS)
+        arrays = {"knots": knots, "bars": bars.reshape(-1, noun.pop("segments"))}
+        panels.append(Panel(**(_tuples(noun) | arrays)))
+    return tuple(panels)
 
 
 def outcome_to_attributes(outcome: Outcome) -> dict[str, Any]:

@@ -144,8 +144,8 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
-            scale[slice(*panel.bars)] = 0.0
-            disc[slice(*panel.knots)] = 0.0
+            scale[panel.bars] = 0.0
+            disc[panel.knots] = 0.0
     zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
     fields: dict[str, Any] = {
         "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
