@@ -22,8 +22,8 @@ from PIL import Image
 
 from fyke.forces.frame import Frame
 from fyke.netting.elastic import LinearLaw
-from fyke.netting.line import line
 from fyke.netting.faces import faces_of
+from fyke.netting.line import line
 from fyke.netting.net import Net
 from fyke.netting.panel import panel
 from fyke.netting.twine import Twine

@@ -107,7 +107,7 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
 
 
 def measure_net(net: Net) -> NetMeasures:
-    """Return the figures of a whole net: bars are cylinders of their unloaded length, knots spheres."""
+    """Return the figures of a whole net: bars are cylinders as long as unloaded, knots spheres."""
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
     bar_volume = area * net.rest_length
@@ -116,6 +116,6 @@ def measure_net(net: Net) -> NetMeasures:
         knots=net.knot_count,
         bars=net.bar_count,
         fixed=int(np.count_nonzero(net.fixed)),
-        mass=float(density @ bar_volume + net.knot_density @ knot_volume),
-        volume=float(np.sum(bar_volume) + np.sum(knot_volume)),
+        mass=float(density @ bar_volume + net.knot_density @ knot_volume + net.at_knots("mass").sum()),
+        volume=float(np.sum(bar_volume) + np.sum(knot_volume) + net.at_knots("volume").sum()),
     )

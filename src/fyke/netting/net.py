@@ -57,13 +57,39 @@ class Panel:
 
 
 @dataclass(frozen=True)
+class Rope:
+    """A rope: its knots (k,) in order and its bars (k - 1,)."""
+
+    name: str
+    knots: NDArray[np.int64]
+    bars: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """Floats or sinkers, all alike, one at each of some knots (k,).
+
+    kind: "float" or "sinker"; each: mass kg, volume m3, drag_area m2 (C_D times area), diameter m.
+    """
+
+    name: str
+    kind: str
+    knots: NDArray[np.int64]
+    mass: float
+    volume: float
+    drag_area: float
+    diameter: float
+
+
+@dataclass(frozen=True)
 class Net:
     """n knots joined by m bars.
 
     positions: (n, 3) m, before anything acts; labels: n texts, row and column "i-j" on a panel; fixed: (n,) bool;
     bars: (m, 2) knot indices; rest_length: (m,) m, unloaded; twines: the twines in use; twine_of_bar: (m,) index
     into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot
-    on top of weight, buoyancy and water; panels: the panels of netting in it, may be empty.
+    on top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
+    sinkers in it, each may be empty.
     """
 
     positions: Array
@@ -77,6 +103,8 @@ class Net:
     knot_density: Array
     load: Array
     panels: tuple[Panel, ...] = field(default=())
+    ropes: tuple[Rope, ...] = field(default=())
+    bodies: tuple[Bodies, ...] = field(default=())
 
     @property
     def knot_count(self) -> int:
@@ -92,6 +120,13 @@ class Net:
     def bar_diameter(self) -> Array:
         """Twine diameter of every bar, (m,) m."""
         return np.array([t.diameter for t in self.twines])[self.twine_of_bar]
+
+    def at_knots(self, what: Literal["mass", "volume", "drag_area"]) -> Array:
+        """Return the mass (kg), volume (m3) or drag area (m2) of the bodies at every knot, (n,)."""
+        out = np.zeros(self.knot_count)
+        for bodies in self.bodies:
+            np.add.at(out, bodies.knots, getattr(bodies, what))
+        return out
 
     def bar_label(self, bar: int) -> str:
         """Return the two knot labels of a bar, "3-4 to 4-5"."""

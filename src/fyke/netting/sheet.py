@@ -49,13 +49,14 @@ def sheet(
     """Lay netting of so many meshes along width and height on a surface.
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
-    knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with "name:" before it when there is a
-    name; those within a bar of several segments by the bar's ends and their number, "0-0>1-1.1".
+    knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with
+    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
+    "0-0>1-1.1".
     """
     grid = lattice(netting.mesh, meshes)
     parts = grid.knots / np.array(grid.intervals)
     own, knots = _own_knots(grid, closed, tip)
-    ends, bars = _own_bars(knots[grid.bars])
+    ends, bars = _own_bars(grid, knots, closed)
     prefix = f"{name}:" if name else ""
     labels = [f"{prefix}{i}-{j}" for i, j in grid.knots[own].tolist()]
     positions, held = surface(parts[own]), grid.held(fixed, closed=closed)[own]
@@ -111,13 +112,20 @@ def _own_knots(grid: Lattice, closed: bool, tip: bool) -> tuple[Indices, Indices
     return own, index[column, j]
 
 
-def _own_bars(ends: Indices) -> tuple[Indices, Indices]:
-    """Ends (m, 2) of the bars of the net, and the bar of the net at every lattice bar (b,): seams have none twice."""
-    _, first, which = np.unique(np.sort(ends, axis=1), axis=0, return_index=True, return_inverse=True)
-    order = np.argsort(first, kind="stable")
-    rank = np.empty(len(order), dtype=np.int64)
-    rank[order] = np.arange(len(order))
-    return ends[first[order]], rank[which.reshape(-1)]
+def _own_bars(grid: Lattice, knots: Indices, closed: bool) -> tuple[Indices, Indices]:
+    """Ends (m, 2) of the bars of the net, and the bar of the net at every lattice bar (b,).
+
+    Bars along the last column of closed netting are those along the first.
+    """
+    i, j = grid.knots[:, 0][grid.bars], grid.knots[:, 1][grid.bars]
+    again = closed & (i == grid.intervals[0]).all(axis=1)
+    own = np.flatnonzero(~again)
+    which = np.empty(len(grid.bars), dtype=np.int64)
+    which[own] = np.arange(len(own))
+    seam = np.flatnonzero((i == 0).all(axis=1))
+    order = seam[np.argsort(j[seam].min(axis=1), kind="stable")]
+    which[again] = which[order[np.searchsorted(j[order].min(axis=1), j[again].min(axis=1))]]
+    return knots[grid.bars[own]], which
 
 
 def _segments(ends: Indices, first: int, segments: int) -> tuple[Indices, Indices]:

@@ -39,4 +39,12 @@ def together(parts: Sequence[Net]) -> Net:
         knot_density=np.concatenate([p.knot_density for p in parts]),
         load=np.concatenate([p.load for p in parts]),
         panels=panels,
+        ropes=tuple(
+            replace(rope, knots=rope.knots + k, bars=rope.bars + b)
+            for p, k, b in zip(parts, knots, bars, strict=False)
+            for rope in p.ropes
+        ),
+        bodies=tuple(
+            replace(one, knots=one.knots + k) for p, k in zip(parts, knots, strict=False) for one in p.bodies
+        ),
     )
