@@ -1,13 +1,15 @@
-"""Netting round an axis: cylinder, cone and frustum. Seams close: the last column of knots is the first."""
+"""Netting round an axis: cylinder, cone, frustum, cage. Seams close: the last column of knots is the first."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .joining import joined, seam
 from .lattice import Edge
 from .net import Net
 from .sheet import Netting, sheet
+from .together import together
 
 Array = NDArray[np.float64]
 
@@ -54,3 +56,41 @@ def frustum(
         fixed=fixed,
         name=name,
     )
+
+
+def cage(
+    netting: Netting,
+    meshes: tuple[int, int],
+    *,
+    diameter: float,
+    depth: float,
+    bottom: tuple[int, float] | None = None,
+    top: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "cage",
+) -> Net:
+    """Lay a round cage: a cylinder, closed below by a cone or a disc of the same diamond netting.
+
+    meshes: around and along the depth; diameter, depth: m, of the cylinder; bottom: meshes from the rim to the middle
+    and how far (m) the middle hangs below the rim, 0 for flat; None for open; top: m, centre of the upper rim. Its
+    panels are called NAME and NAME bottom.
+    """
+    wall = frustum(
+        netting, meshes, diameters=(diameter, diameter), height=depth, centre=top, fixed=fixed, name=name
+    )
+    if bottom is None:
+        return wall
+    deep, sink = bottom
+    rim = (top[0], top[1], top[2] - depth)
+    floor = frustum(
+        netting,
+        (meshes[0], deep),
+        diameters=(0.0, diameter),
+        height=sink,
+        centre=rim,
+        fixed="none",
+        name=f"{name} bottom",
+    )
+    whole = together([wall, floor])
+    above, below = whole.panels
+    return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))
