@@ -254,3 +254,52 @@ def test_a_float_rides_with_the_water_it_displaces():
 def test_what_cannot_be_made_is_told(make, words):
     with pytest.raises(ValueError, match=words):
         make()
+
+
+def test_a_cage_encloses_its_prism_and_cone():
+    """The volume of a cage as built, by its corners: prism of the rim's polygon and a pyramid below."""
+    from fyke.netting.shapes import cage
+    from fyke.results.volume import enclosed_volume
+
+    n, depth, sink = 24, 0.8, 0.3
+    for bottom, cone in ((None, 0.0), ((3, 0.0), 0.0), ((3, sink), sink / 3.0)):
+        net = cage(netting("diamond"), (n // 2, 4), diameter=1.0, depth=depth, bottom=bottom)
+        polygon = 0.5 * n * 0.25 * np.sin(2.0 * np.pi / n)
+        found = enclosed_volume(net, net.positions)
+        # Rims of diamond netting have every other corner of the polygon.
+        assert found == pytest.approx(polygon * (depth + cone), rel=3e-2)
+        moved = net.positions @ np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0] + 5.0
+        assert enclosed_volume(net, moved) == pytest.approx(found, rel=1e-9)
+        assert enclosed_volume(net, 2.0 * net.positions) == pytest.approx(8.0 * found, rel=1e-9)
+    square = cage(netting("square"), (n, 4), diameter=1.0, depth=depth)
+    assert enclosed_volume(square, square.positions) == pytest.approx(polygon * depth, rel=1e-12)
+
+
+def test_a_cage_with_its_bottom_is_one_net():
+    """The rim's knots are shared: no knot twice in one place, and the bottom hangs from the wall."""
+    from fyke.netting.shapes import cage
+
+    net = cage(netting(), (12, 3), diameter=0.9, depth=0.6, bottom=(3, 0.2), top=(0.0, 0.0, -0.1))
+    apart = np.linalg.norm(net.positions[:, None] - net.positions[None], axis=2) + np.eye(net.knot_count)
+    assert apart.min() > 1e-6
+    assert [one.name for one in net.panels] == ["cage", "cage bottom"]
+    wall, floor = net.panels
+    assert set(wall.edge("bottom")) == set(floor.edge("top"))
+    result = fyke.solve_static(fyke.make_system(net))
+    assert result.outcome.ok
+    assert result.support_reaction[-1][2] == pytest.approx(-result.weight_in_water, rel=1e-6)
+
+
+@pytest.mark.parametrize(("many", "few", "closed"), [(12, 8, True), (9, 9, False), (13, 7, False)])
+def test_a_seam_takes_up_meshes_evenly(many, few, closed):
+    from fyke.netting.joining import seam
+
+    one, other = np.arange(many + 1), 100 + np.arange(few + 1)
+    if closed:
+        one[-1], other[-1] = one[0], other[0]
+    stays, goes = seam(one, other, closed=closed)
+    longer = one if many > few else other
+    assert sorted(goes.tolist()) == sorted(set(longer.tolist()))
+    counts = np.unique(stays, return_counts=True)[1]
+    assert np.ptp(counts) <= 1
+    assert len(goes) == len(set(goes.tolist()))

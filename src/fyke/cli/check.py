@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..case import Case, CaseError, load_case
-from ..netting.faces import faces_of
 from ..netting.lattice import flat_strain
 from ..netting.measures import measure_net, measure_panel
-from ..netting.net import Net, Panel
-from ..results.ranges import bar_values, knot_values, laws_of, out_of_range
+from ..netting.net import Panel
+from ..results.ranges import bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
 from ..system.system import System
 from ..water.current import at_full_strength
@@ -66,16 +65,19 @@ def judge(case: Case) -> dict[str, Any]:
     """
     net = build_net(case)
     system = build_system(net, case)
-    measures, laws = measure_net(net), laws_of(case)
-    water = at_full_strength(system.current).velocity(net.positions, 0.0)
+    measures, viscosity = measure_net(net), system.water.kinematic_viscosity
+    steady = replace(
+        system,
+        current=at_full_strength(system.current),
+        waves=None,
+        coefficients=replace(system.coefficients, wake=None, twines=None),
+    )
+    water = steady.current.velocity(net.positions, 0.0)
     numbers = (
-        bar_values(net, net.positions, water, ConstantBar(), laws.viscosity)[REYNOLDS],
-        knot_values(net, water, laws.viscosity)[REYNOLDS],
+        bar_values(net, net.positions, water, ConstantBar(), viscosity)[REYNOLDS],
+        knot_values(net, water, viscosity)[REYNOLDS],
     )
-    start = [(0.0, net.positions, np.zeros_like(net.positions))]
-    outside = out_of_range(
-        net, start, laws, lambda *_: water, screens=lambda _, flow: _as_screens(net, flow, laws.viscosity)
-    )
+    outside = out_of_range(steady, [(0.0, net.positions, np.zeros_like(net.positions))])
     return {
         "title": case.title,
         "solve": case.solve.kind,
@@ -84,11 +86,7 @@ def judge(case: Case) -> dict[str, Any]:
         "current": list(case.current.at_surface),
         "current_words": case.current.described,
         "waves": case.waves.described if case.waves else None,
-        "drag": {
-            key: law.name
-            for key, law in (("bars", laws.bars), ("knots", laws.knots), ("screens", laws.panels))
-            if law is not None
-        },
+        "drag": _drag(system),
         "panels": [_panel(case, system, panel, *numbers) for panel in net.panels],
         "warnings": [*case.warnings, *outside.warnings],
         "out_of_range": outside.counts,
@@ -96,16 +94,12 @@ def judge(case: Case) -> dict[str, Any]:
     }
 
 
-def _as_screens(net: Net, flow: Array, viscosity: float) -> tuple[Array, Array, Array]:
-    """Return solidity, angle (rad) between normal and flow, and Reynolds number of every face as hung."""
-    faces = faces_of(net)
-    velocity = np.einsum("pk,pkq->pq", faces.share, flow[faces.corners])
-    speed = np.linalg.norm(velocity, axis=1)
-    normal = faces.vector_area(net.positions)
-    along = np.abs(np.einsum("pq,pq->p", velocity, normal))
-    size = speed * np.linalg.norm(normal, axis=1)
-    through = np.divide(along, size, out=np.ones_like(size), where=size > 0.0)
-    return faces.solidity, np.arccos(np.minimum(through, 1.0)), speed * faces.diameter / viscosity
+def _drag(system: System) -> dict[str, str]:
+    """Return the words of the laws of drag that act, by what they act on."""
+    c = system.coefficients
+    if c.screens is not None:
+        return {"screens": c.screens.name}
+    return {"bars": c.bars.name, "knots": c.knots.name}
 
 
 def _span(values: Array) -> list[float]:

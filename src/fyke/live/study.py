@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from ..case import Case, CaseError, parse_case
 from ..case.schema import DynamicSolve
 from ..forces.evaluate import evaluate
+from ..results import flow_direction
 from ..results.derive import drag_and_lift
 from ..solve.implicit import Implicit
 from ..solve.linear import Factorizer, factorizer
@@ -76,15 +77,10 @@ class Study:
         self.result: Result = self._solved(self.system, None)
 
     @property
-    def current(self) -> Array:
-        """Velocity of the undisturbed water, (3,) m/s."""
-        return np.array(self.case.current.at_surface)
-
-    @property
     def numbers(self) -> Numbers:
         """Numbers of the present shape."""
         last, net = self.result.frame(), self.result.net
-        drag, lift = drag_and_lift(last.hydrodynamic_force, self.current)
+        drag, lift = drag_and_lift(last.hydrodynamic_force, flow_direction(self._built))
         return Numbers(
             drag,
             lift,

@@ -13,7 +13,6 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-
 def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
     """Return the net in which every knot of `goes` has become the knot of `stays` at the same place of the list.
 

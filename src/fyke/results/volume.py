@@ -1,7 +1,7 @@
 """Volume that netting encloses.
 
-By the divergence theorem a closed surface of faces with vector areas N about the places c encloses 1/3 |sum c.N|. An open
-rim is closed by triangles to the mean of its knots, which for a flat rim is its plane.
+By the divergence theorem a closed surface of faces with vector areas N about the places c encloses 1/3 |sum c.N|. An
+open rim is closed by triangles to the mean of its knots, which for a flat rim is its plane.
 """
 
 from __future__ import annotations
