@@ -120,12 +120,12 @@ def _panel(case: Case, system: System, panel: Panel, across: Array, at_knots: Ar
         "meshes": list(panel.meshes),
         "size": list(panel.size),
         **asdict(measure_panel(net, panel)),
-        "fixed": int(np.count_nonzero(net.fixed[slice(*panel.knots)])),
+        "fixed": int(np.count_nonzero(net.fixed[np.unique(panel.knots)])),
         "strain": max(flat_strain(mesh, panel.meshes, panel.bar_length, panel.size)),
         "reynolds": speed * twine.diameter / case.water.kinematic_viscosity,
-        "reynolds_across": _span(across[slice(*panel.bars)]),
-        "reynolds_knots": _span(at_knots[slice(*panel.knots)])[1],
-        "damping_time": float(system.elements.damping_time[slice(*panel.bars)].max()),
+        "reynolds_across": _span(across[panel.bars]),
+        "reynolds_knots": _span(at_knots[panel.knots])[1],
+        "damping_time": float(system.elements.damping_time[panel.bars].max()),
         "damping_source": twine.damping_source,
     }
 

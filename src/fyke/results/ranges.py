@@ -130,8 +130,8 @@ def _by_themselves(system: System) -> tuple[Flags, Flags]:
     net = system.net
     bars, knots = np.ones(net.bar_count, dtype=bool), np.ones(net.knot_count, dtype=bool)
     for panel in net.panels if system.coefficients.screens is not None else ():
-        bars[slice(*panel.bars)] = False
-        knots[slice(*panel.knots)] = False
+        bars[panel.bars] = False
+        knots[panel.knots] = False
     return bars, knots
 
 

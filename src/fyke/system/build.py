@@ -16,7 +16,7 @@ from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
 from ..water.inertia import AddedMassLaw
-from ..water.laws import Law
+from ..water.laws import KnotLaw, Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
@@ -108,9 +108,11 @@ def make_system(
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
     volume = area * net.rest_length
-    knot_volume = np.pi / 6.0 * net.knot_diameter**3
-    mass = _to_knots(net, density * volume) + net.knot_density * knot_volume
-    sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
+    knot_volume, body_volume = np.pi / 6.0 * net.knot_diameter**3, net.at_knots("volume")
+    knot_only = net.knot_density * knot_volume + net.at_knots("mass")
+    knot_volume = knot_volume + body_volume
+    mass = _to_knots(net, density * volume) + knot_only
+    sinking = _to_knots(net, (density - w.density) * volume) + knot_only - w.density * knot_volume
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
@@ -155,8 +157,9 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
-            scale[slice(*panel.bars)] = 0.0
-            disc[slice(*panel.knots)] = 0.0
+            scale[panel.bars] = 0.0
+            disc[panel.knots] = 0.0
+    bodies = 0.5 * w.density * net.at_knots("drag_area")
     zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
     fields: dict[str, Any] = {
         "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
@@ -168,7 +171,7 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
             "plain": True,
             "normal_drag": scale * bars.normal,
             "tangential_drag": scale * bars.tangential,
-            "knot_drag": disc * knots.drag,
+            "knot_drag": disc * knots.drag + bodies,
             "bar_curve": zeros[0],
             "bar_curves": np.zeros((1, INTERVALS, ROW)),
             "friction": 0.0,
@@ -178,20 +181,36 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
         }
     thickness, bar_curve = np.unique(net.bar_diameter, return_inverse=True)
     curves = bar_curves(bars, thickness / w.kinematic_viscosity)
-    breadth, knot_curve = np.unique(net.knot_diameter, return_inverse=True)
-    reference, rows = knot_curves(knots, breadth / w.kinematic_viscosity)
+    knot_drag, knot_curve, rows = _knot_curves(net, w, knots, disc, bodies)
     return fields | {
         "plain": False,
         "normal_drag": scale * curves.reference[bar_curve],
         "tangential_drag": scale * curves.along[bar_curve],
-        "knot_drag": disc * reference[knot_curve],
+        "knot_drag": knot_drag,
         "bar_curve": bar_curve.astype(np.int32),
         "bar_curves": curves.rows,
         "friction": curves.friction,
         "angles": curves.angles,
-        "knot_curve": knot_curve.astype(np.int32),
+        "knot_curve": knot_curve,
         "knot_curves": rows,
     }
+
+
+def _knot_curves(
+    net: Net, w: Water, law: KnotLaw, disc: Array, bodies: Array
+) -> tuple[Array, NDArray[np.int32], Array]:
+    """Drag (n,) kg/m of knots and bodies at the reference speed, which curve each has (n,), and these.
+
+    disc: (n,) 1/2 rho pi/4 d^2 of the knots; bodies: (n,) 1/2 rho C_D A, which does not change with the speed.
+    """
+    kinds, which = np.unique(np.column_stack([net.knot_diameter, disc, bodies]), axis=0, return_inverse=True)
+    reference, rows = knot_curves(law, kinds[:, 0] / w.kinematic_viscosity)
+    own, fixed = kinds[:, 1] * reference, kinds[:, 2]
+    whole = own + fixed
+    share = np.divide(own, whole, out=np.ones_like(whole), where=whole > 0.0)
+    rows[:, :, :4] *= share[:, None, None]
+    rows[:, :, 0] += (1.0 - share)[:, None]
+    return whole[which.reshape(-1)], which.reshape(-1).astype(np.int32), rows
 
 
 def ringing(net: Net, stiffness: Array, knot_mass: Array) -> Array:
@@ -236,7 +255,7 @@ def _drag_sources(net: Net, c: Coefficients) -> Iterator[str]:
     """One line for screens, and for bars and knots where there are some outside of them."""
     if c.screens is not None and net.panels:
         yield f"drag of netting as screens: {_told(c.screens)}"
-        if sum(end - begin for begin, end in (panel.bars for panel in net.panels)) == net.bar_count:
+        if len(np.unique(np.concatenate([panel.bars.ravel() for panel in net.panels]))) == net.bar_count:
             return
     if isinstance(c.bars, ConstantBar):
         yield (

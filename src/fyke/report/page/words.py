@@ -125,14 +125,18 @@ def panel_rows(result: Result, panel: Panel) -> list[Row]:
     net = result.net
     measures = measure_panel(net, panel)
     twine = next(t for t in net.twines if t.name == panel.twine)
-    tension = result.tension[-1][slice(*panel.bars)]
-    knots = slice(*panel.knots)
+    tension = result.tension[-1][np.unique(panel.bars)]
+    knots = np.unique(panel.knots)
     across, down = panel.meshes
     e1, e2 = measures.hanging_ratios
     material = f"{twine.material}, " if twine.material else ""
     return [
         ("Netting", f"{panel.mesh}, {across} × {down} meshes", None),
-        ("Frame", f"{panel.size[0]:.4g} m × {panel.size[1]:.4g} m", None),
+        (
+            "Frame" if panel.shape == "panel" else f"{panel.shape.capitalize()}, laid flat",
+            f"{panel.size[0]:.4g} m × {panel.size[1]:.4g} m",
+            None,
+        ),
         ("Bar length", number(1e3 * panel.bar_length, "mm"), panel.bar_length),
         ("Twine", f"{material}{1e3 * twine.diameter:.4g} mm, {twine.law.describe()}", twine.diameter),
         (
@@ -167,7 +171,8 @@ def support_rows(result: Result, system: System | None) -> list[tuple[str, str, 
     if system is not None and len(net.panels) > 1:
         force = forces_on_knots(system, last)
         for panel in net.panels:
-            held = np.flatnonzero(net.fixed[slice(*panel.knots)]) + panel.knots[0]
+            knots = np.unique(panel.knots)
+            held = knots[net.fixed[knots]]
             if len(held):
                 rows.append(_support(panel.name, len(held), force[held].sum(axis=0)))
     return [*rows, _support("whole net", int(np.count_nonzero(net.fixed)), last.support_reaction)]
