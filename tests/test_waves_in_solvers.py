@@ -177,3 +177,11 @@ def test_energy_in_waves_adds_up():
         assert energy.inertia_work != 0.0
     assert parts[1] < 0.02
     assert parts[1] < parts[0] * 1.2
+
+
+def test_auto_begins_implicitly_in_waves():
+    """In water that never stands still the net never comes to rest, by which the plan for steady water counts."""
+    run = fyke.simulate(
+        fyke.make_system(hung((2, 2)), waves=airy(0.1, 1.5, depth=3.0)), duration=0.2, stepper=fyke.Auto()
+    )
+    assert "implicit, in water that keeps changing" in run.outcome.solver
