@@ -141,6 +141,20 @@ def test_a_static_case_has_no_waves_at_all(tmp_path):
     assert not (tmp_path / "net" / "waves.csv").exists()
 
 
+def test_check_tells_the_shelter(tmp_path):
+    file = tmp_path / "net.toml"
+    for wake, word in (("0.8", "0.8"), ("'cheng'", "cheng")):
+        file.write_text(panel(f"[shelter]\nwake = {wake}\ntwines = 'cheng'\n"))
+        told = json.loads(
+            CliRunner().invoke(app, ["check", str(file), "--json"], catch_exceptions=False).stdout
+        )
+        assert told["shelter"] == {"wake": word, "twines": "cheng"}
+        shown = CliRunner().invoke(app, ["check", str(file)], catch_exceptions=False).stdout
+        assert f"wake: {word}, twines: cheng" in shown
+    file.write_text(panel())
+    assert "shelter" not in CliRunner().invoke(app, ["check", str(file)], catch_exceptions=False).stdout
+
+
 def test_shelter_is_told_with_its_smallest_and_mean_factor(tmp_path):
     told = json.loads(run(tmp_path, panel(TWO + "[shelter]\nwake = 0.8\n"), "--json", "--no-figures").stdout)
     # The knots of the second panel have 0.8 of the current, those of the first all of it, as many as they are.

@@ -19,6 +19,7 @@ from ..system.system import System
 from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
+from ..water.wakes import GivenWake
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -60,8 +61,8 @@ def judge(case: Case) -> dict[str, Any]:
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    drag: the laws by their words; out_of_range: at how many bars, knots or panels they leave their ranges in the
-    undisturbed current.
+    drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
+    ranges in the undisturbed current.
     """
     net = build_net(case)
     system = build_system(net, case)
@@ -87,6 +88,7 @@ def judge(case: Case) -> dict[str, Any]:
         "current_words": case.current.described,
         "waves": case.waves.described if case.waves else None,
         "drag": _drag(system),
+        "shelter": _shelter(system),
         "panels": [_panel(case, system, panel, *numbers) for panel in net.panels],
         "warnings": [*case.warnings, *outside.warnings],
         "out_of_range": outside.counts,
@@ -100,6 +102,13 @@ def _drag(system: System) -> dict[str, str]:
     if c.screens is not None:
         return {"screens": c.screens.name}
     return {"bars": c.bars.name, "knots": c.knots.name}
+
+
+def _shelter(system: System) -> dict[str, str]:
+    """Return the words of the laws of shelter that are asked for, a given factor as its number."""
+    c = system.coefficients
+    wake = f"{c.wake.left:g}" if isinstance(c.wake, GivenWake) else c.wake and c.wake.name
+    return {key: word for key, word in (("wake", wake), ("twines", c.twines and c.twines.name)) if word}
 
 
 def _span(values: Array) -> list[float]:
@@ -139,7 +148,8 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         *([("waves", findings["waves"])] if findings["waves"] else []),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
-        ("drag", ", ".join(f"{what}: {law}" for what, law in findings["drag"].items())),
+        ("drag", _words(findings["drag"])),
+        *([("shelter", _words(findings["shelter"]))] if findings["shelter"] else []),
         ("mass in air", quantity(findings["mass"], "kg")),
         ("weight in water", f"{quantity(findings['weight_in_water'], 'N')} ({sinks})"),
     ]
@@ -150,6 +160,10 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     print_warnings(console, findings["warnings"])
     if not findings["warnings"]:
         console.print("Nothing looks odd.")
+
+
+def _words(laws: dict[str, str]) -> str:
+    return ", ".join(f"{what}: {law}" for what, law in laws.items())
 
 
 def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
