@@ -38,8 +38,8 @@ FIRST, REST, REST_POWER, REST_TIME = 16, 60.0, 0.2, 0.5
 # The implicit method may need so many times more than planned. After that leapfrog goes on for RETURN times the work
 # lost before it is tried again: what is lost on trials in vain is at most 1 / RETURN.
 PATIENCE, RETURN = 1.5, 2.0
-# Planned work of the implicit method over that of leapfrog up to which it begins in water that keeps changing. Of a wall
-# of 5 101 knots in irregular waves it needed a quarter of its plan.
+# Planned work of the implicit method over that of leapfrog up to which it begins in water that keeps changing. Of a
+# wall of 5 101 knots in irregular waves it needed a quarter of its plan.
 LASTING = 4.0
 # Changes that the outcome tells one by one.
 TOLD = 4
