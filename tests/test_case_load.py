@@ -172,12 +172,20 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
         lines.index("", waves),
     )
+    gear = lines.index(
+        "# Netting round an axis, and what hangs on netting; every part has a name of its own:"
+    )
+    parts = range(gear + 1, lines.index("", gear))
     for number, line in enumerate(lines):
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(("The", "A ", "For", "By")):
             continue
         key = line[2:].split("=")[0].strip()
         shown = [line[2:] if i == number else old for i, old in enumerate(lines)]
-        if key in ("law", "hanging_ratio"):
+        if number in parts:
+            left_out = ("diameter", "height") if key == "hanging_ratio" else ("hanging_ratio",)
+            block = [lines[i][2:] for i in parts if not lines[i][2:].startswith(left_out)]
+            shown = [*lines[:gear], *block, *lines[parts.stop :]]
+        elif key in ("law", "hanging_ratio"):
             shown = [
                 old for old in shown if not old.startswith({"law": "youngs", "hanging_ratio": "size"}[key])
             ]

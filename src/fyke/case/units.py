@@ -91,6 +91,7 @@ FORCE = Kind(
     {"N": Fraction(1), "kN": Fraction(1000), "mN": Fraction("1e-3"), "kgf": Fraction("9.80665")},
     "2 kN",
 )
+MASS = Kind("mass", "kg", {"kg": Fraction(1), "g": Fraction("1e-3"), "t": Fraction(1000)}, "250 g")
 VISCOSITY = Kind(
     "kinematic viscosity",
     "m2/s",
@@ -109,6 +110,7 @@ KINDS = (
     PRESSURE,
     DENSITY,
     FORCE,
+    MASS,
     VISCOSITY,
     ENERGY,
     ANGLE,
