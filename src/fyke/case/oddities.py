@@ -82,6 +82,8 @@ def _unused(case: Case) -> Iterator[str]:
         yield f"Netting '{name}' is not used by any gear."
     for name in sorted(case.twine.keys() - {netting.twine for netting in case.netting.values()}):
         yield f"Twine '{name}' is not used by any netting."
+    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
+        yield f"Material '{name}' is not used by any twine."
 
 
 def _no_effect(case: Case) -> Iterator[str]:

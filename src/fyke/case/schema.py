@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
-from ..netting.twine import Twine
+from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .current import Current
 from .drag import Drag, hung_solidity
@@ -17,7 +17,7 @@ from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec
 from .quantity import Quantity, wrong
 from .shelter import ShelterSpec
-from .twine import TwineSpec
+from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
 
@@ -125,6 +125,9 @@ class Case(Table):
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
     waves: WavesSpec | None = Field(default=None, description="the waves")
+    material: Annotated[dict[Name, MaterialSpec], BeforeValidator(_named_tables("material"))] = Field(
+        default={}, description="materials of your own by name"
+    )
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
@@ -150,6 +153,8 @@ class Case(Table):
         self._text = known.get("text", "")
         self._path = known.get("path")
         self._warnings = known.get("warnings", ())
+        for twine in self.twine.values():
+            twine.settle(self.materials)
         for number, panel in enumerate(self.gear, 1):
             if panel.netting in self.netting:
                 panel.settle(str(number) if len(self.gear) > 1 else "", self.netting[panel.netting])
@@ -174,6 +179,11 @@ class Case(Table):
     def warnings(self) -> tuple[str, ...]:
         """What is allowed but looks odd, sentences with the number and the limit."""
         return self._warnings
+
+    @property
+    def materials(self) -> dict[str, Material]:
+        """The materials that twines can be made of, by name: those of fyke and those of the file."""
+        return MATERIALS | {name: spec.material(name) for name, spec in self.material.items()}
 
     @property
     def twines(self) -> dict[str, Twine]:

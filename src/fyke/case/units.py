@@ -91,6 +91,19 @@ FORCE = Kind(
     {"N": Fraction(1), "kN": Fraction(1000), "mN": Fraction("1e-3"), "kgf": Fraction("9.80665")},
     "2 kN",
 )
+LINEAR_DENSITY = Kind(
+    "mass per length",
+    "kg/m",
+    {
+        "tex": Fraction("1e-6"),
+        "dtex": Fraction("1e-7"),
+        "ktex": Fraction("1e-3"),
+        "den": Fraction("1e-6") / 9,
+        "g/m": Fraction("1e-3"),
+        "kg/m": Fraction(1),
+    },
+    "2000 tex",
+)
 VISCOSITY = Kind(
     "kinematic viscosity",
     "m2/s",
@@ -108,6 +121,7 @@ KINDS = (
     TIME,
     PRESSURE,
     DENSITY,
+    LINEAR_DENSITY,
     FORCE,
     VISCOSITY,
     ENERGY,

@@ -106,7 +106,7 @@ def make_system(
     w = water or Water()
     c = coefficients or Coefficients()
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
-    density = np.array([t.density for t in net.twines])[net.twine_of_bar]
+    density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
     volume = area * net.rest_length
     knot_volume, body_volume = np.pi / 6.0 * net.knot_diameter**3, net.at_knots("volume")
     knot_only = net.knot_density * knot_volume + net.at_knots("mass")
