@@ -47,7 +47,7 @@ velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]; or, instead o
 # spreading = { exponent = 10, directions = 15 }
 
 [twine.main]                         # any number of twines, each with a name
-material = "PA"                      # PA, PES, PP, PE, UHMWPE, CuZn or your own: density and modulus where you give none
+material = "PA"                      # PA, PES, PP, PE, UHMWPE, CuZn or your own: density, modulus where you give none
 density = 1140.0                     # kg/m3, of the fibre
 diameter = "1.5 mm"                  # or, instead of it or with it, the mass per length:
 # rtex = "2000 tex"
