@@ -46,7 +46,8 @@ class Panel:
     def flat(self) -> Array:
         """Where the lattice knots lie on the netting laid flat, about its middle, (k, 2) m."""
         grid = self.lattice
-        return np.asarray((grid.knots / np.array(grid.intervals) - 0.5) * np.array(self.size))
+        intervals = np.array(grid.intervals, dtype=float)
+        return np.asarray((grid.knots - 0.5 * intervals) * (np.array(self.size) / intervals))
 
     def edge(self, which: Side) -> NDArray[np.int64]:
         """Knots of the net along an edge, in order from left to right or from below."""

@@ -51,7 +51,7 @@ def panel(
     return sheet(
         Netting(twine, mesh, bar_length, knot_diameter, knot_density, segments),
         meshes,
-        lambda parts: (parts - 0.5) * np.array(size) @ axes + where,
+        lambda steps, intervals: steps * (np.array(size) / intervals) @ axes + where,
         shape="panel",
         size=size,
         fixed=fixed,

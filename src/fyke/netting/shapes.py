@@ -38,8 +38,8 @@ def frustum(
     if height == 0.0 and low == high:
         raise ValueError(f"two rims of {low:g} m at the same height have no netting between them")
 
-    def surface(parts: Array) -> Array:
-        angle, up = 2.0 * np.pi * parts[:, 0], parts[:, 1]
+    def surface(steps: Array, intervals: Array) -> Array:
+        angle, up = (steps / intervals + 0.5).T * np.array([[2.0 * np.pi], [1.0]])
         radius = 0.5 * (low + (high - low) * up)
         places = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), height * (up - 1.0)])
         return np.asarray(places + np.array(centre))

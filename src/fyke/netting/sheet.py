@@ -14,8 +14,9 @@ from .twine import Twine
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
-# From parts of the width and the height, (k, 2) from 0 to 1, to places (k, 3) m.
-Surface = Callable[[Array], Array]
+# From lattice intervals right of and above the middle (k, 2), and how many there are (2,), to places (k, 3) m. Counted
+# from the middle, both halves have the same rounding.
+Surface = Callable[[Array, Array], Array]
 
 
 @dataclass(frozen=True)
@@ -54,12 +55,15 @@ def sheet(
     "0-0>1-1.1".
     """
     grid = lattice(netting.mesh, meshes)
-    parts = grid.knots / np.array(grid.intervals)
+    intervals = np.array(grid.intervals, dtype=float)
     own, knots = _own_knots(grid, closed, tip)
     ends, bars = _own_bars(grid, knots, closed)
     prefix = f"{name}:" if name else ""
     labels = [f"{prefix}{i}-{j}" for i, j in grid.knots[own].tolist()]
-    positions, held = surface(parts[own]), grid.held(fixed, closed=closed)[own]
+    positions, held = (
+        surface(grid.knots[own] - 0.5 * intervals, intervals),
+        grid.held(fixed, closed=closed)[own],
+    )
     n, s = len(own), netting.segments
     inner, chains = _segments(ends, n, s)
     share = (np.arange(1, s) / s)[None, :, None]

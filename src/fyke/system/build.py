@@ -108,11 +108,12 @@ def make_system(
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
     volume = area * net.rest_length
-    knot_volume, body_volume = np.pi / 6.0 * net.knot_diameter**3, net.at_knots("volume")
-    knot_only = net.knot_density * knot_volume + net.at_knots("mass")
+    knot_volume = np.pi / 6.0 * net.knot_diameter**3
+    body_mass, body_volume = net.at_knots("mass"), net.at_knots("volume")
+    mass = _to_knots(net, density * volume) + net.knot_density * knot_volume + body_mass
+    sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
+    sinking += body_mass - w.density * body_volume
     knot_volume = knot_volume + body_volume
-    mass = _to_knots(net, density * volume) + knot_only
-    sinking = _to_knots(net, (density - w.density) * volume) + knot_only - w.density * knot_volume
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
