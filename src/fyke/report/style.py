@@ -24,7 +24,7 @@ DOUBLE_COLUMN = 178 / 25.4  # in
 RESOLUTION = 300  # dots per inch
 TYPE, SMALL_TYPE = 7.5, 7.0  # points
 
-BLACK, BLUE, VERMILION, GREEN = "#000000", "#0072B2", "#D55E00", "#009E73"
+BLACK, BLUE, VERMILION, GREEN, ORANGE = "#000000", "#0072B2", "#D55E00", "#009E73", "#E69F00"
 GRID_GREY, SLACK_GREY, FRAME_GREY = "#D9D9D9", "#8C8C8C", "#595959"
 SLACK_DASHES = (0, (2.0, 1.4))
 TENSION_COLOURS = ListedColormap(mpl.colormaps["viridis_r"](np.linspace(0.1, 1.0, 256)), name="fyke tension")
