@@ -10,10 +10,11 @@ from scipy.spatial.transform import Rotation
 
 import fyke
 from fyke.forces.screen_faces import DENSE, DENSEST, add_screens
-from fyke.forces.screen_laws import HIGHEST_REYNOLDS, LOWEST_REYNOLDS, in_tables
+from fyke.forces.screen_laws import in_tables
 from fyke.forces.screens import Screens
 from fyke.netting.faces import Faces, faces_of
 from fyke.solve.pattern import Pattern
+from fyke.system.curves import HIGHEST_REYNOLDS, LOWEST_REYNOLDS
 from fyke.water.laws import LAWS, PanelLaw, cylinder, joints, measured, outside
 from fyke.water.laws.panels import LEE_WIDTH, Aarsnes, Balash, Fridman, KristiansenFaltinsen, Lee, Loland
 

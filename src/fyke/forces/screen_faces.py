@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from ..water.laws.panels import blunt
 from .apart import keep, take
-from .compiled import OPTIONS
-from .screen_laws import WITHIN, screen
+from .compiled import OPTIONS, WITHIN
+from .screen_laws import screen
 
 Array = NDArray[np.float64]
 

@@ -13,9 +13,9 @@ from numba import njit
 from numba.extending import register_jitable
 
 from ..water.laws.panels import blunt
-from .compiled import OPTIONS
+from .compiled import OPTIONS, WITHIN
 from .screen_faces import GRAZING, TINY, gather, local_solidity
-from .screen_laws import WITHIN, screen
+from .screen_laws import screen
 
 # Imaginary step that carries derivatives through the formula of a law; its square is below the rounding of anything.
 _STEP = 1e-30

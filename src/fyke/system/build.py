@@ -17,7 +17,7 @@ from ..water.current import Current, UniformCurrent
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
-from .curves import INTERVALS, NO_ANGLES, ROW, bar_curves, knot_curves
+from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import Elements
 from .laws import Coefficients, Water
 from .system import Displaced, System
@@ -140,46 +140,24 @@ def make_system(
 
 def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     """Fields of Elements that say how the water drags."""
-    bars, knots = c.bars, c.knots
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
             scale[slice(*panel.bars)] = 0.0
             disc[slice(*panel.knots)] = 0.0
-    zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
-    fields: dict[str, Any] = {
+    across, along, curves = bar_curves(c.bars)
+    drag, curve = knot_curve(c.knots)
+    return {
+        "plain": curves is CONSTANT_BARS and curve is NONE,
+        "normal_drag": scale * across,
+        "tangential_drag": scale * along,
+        "knot_drag": disc * drag,
         "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
+        "knot_reynolds": net.knot_diameter / w.kinematic_viscosity,
+        "bar_curves": curves,
+        "knot_curve": curve,
         "drag_slopes": np.zeros((4, 0)),
         "knot_slopes": np.zeros(0),
-    }
-    if isinstance(bars, ConstantBar) and isinstance(knots, ConstantKnot):
-        return fields | {
-            "plain": True,
-            "normal_drag": scale * bars.normal,
-            "tangential_drag": scale * bars.tangential,
-            "knot_drag": disc * knots.drag,
-            "bar_curve": zeros[0],
-            "bar_curves": np.zeros((1, INTERVALS, ROW)),
-            "friction": 0.0,
-            "angles": NO_ANGLES,
-            "knot_curve": zeros[1],
-            "knot_curves": np.zeros((1, INTERVALS, 5)),
-        }
-    thickness, bar_curve = np.unique(net.bar_diameter, return_inverse=True)
-    curves = bar_curves(bars, thickness / w.kinematic_viscosity)
-    breadth, knot_curve = np.unique(net.knot_diameter, return_inverse=True)
-    reference, rows = knot_curves(knots, breadth / w.kinematic_viscosity)
-    return fields | {
-        "plain": False,
-        "normal_drag": scale * curves.reference[bar_curve],
-        "tangential_drag": scale * curves.along[bar_curve],
-        "knot_drag": disc * reference[knot_curve],
-        "bar_curve": bar_curve.astype(np.int32),
-        "bar_curves": curves.rows,
-        "friction": curves.friction,
-        "angles": curves.angles,
-        "knot_curve": knot_curve.astype(np.int32),
-        "knot_curves": rows,
     }
 
 
