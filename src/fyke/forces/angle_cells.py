@@ -16,7 +16,7 @@ from numba.extending import register_jitable
 from .apart import keep, kept, take
 from .around import PITCH
 from .compiled import OPTIONS, WITHIN
-from .cubics import FOUR, PART, READ_ROWS, ROW, fetch_all
+from .cubics import FOUR, PART, READ_ROWS, ROW, fetch_all, in_strides
 
 # Flow below this has no direction (in units of Re): divisions stay finite where the force is zero.
 STILL = 1e-100
@@ -75,11 +75,11 @@ def angle_of(n, s):
 
 @register_jitable(**WITHIN)
 def _slant(square, along, reynolds, angle):
-    """ln Re and angle, kept to the table, of a flow with this Re^2 across and Re along a bar."""
-    l = 0.5 * logarithm(max(square + along * along, STILL))
+    """Ln Re and angle, kept to the table, of a flow with this Re^2 across and Re along a bar."""
+    log = 0.5 * logarithm(max(square + along * along, STILL))
     q = angle_of(max(np.sqrt(square), STILL), max(abs(along), STILL))
     return (
-        min(max(l, take(reynolds, 0)), take(reynolds, reynolds.shape[0] - 1)),
+        min(max(log, take(reynolds, 0)), take(reynolds, reynolds.shape[0] - 1)),
         min(max(q, take(angle, 0)), take(angle, angle.shape[0] - 1)),
     )
 
@@ -96,28 +96,29 @@ def _in_axes(square, along, drag, lift):
 def by_cells(begin, end, g, across, along, work, cells):
     """Put c_n and c_t over c in place of Re^2 across and Re along, in g from across + begin and along + begin on.
 
-    begin: a whole number of strides; work: place of WORK_ROWS rows in g.
+    To the end of the last stride; work: place of WORK_ROWS rows in g.
     """
+    end = in_strides(begin, end)
     reynolds, angle = cells.reynolds, cells.angle
-    by_l, by_q = work + LOGARITHM * PITCH, work + ANGLE * PITCH
+    by_log, by_q = work + LOGARITHM * PITCH, work + ANGLE * PITCH
     count, four = work + PART * PITCH, work + FOUR * PITCH
     for i in range(begin, end):
-        l, q = _slant(kept(g, across + i), kept(g, along + i), reynolds, angle)
-        keep(g, by_l + i, l)
+        log, q = _slant(kept(g, across + i), kept(g, along + i), reynolds, angle)
+        keep(g, by_log + i, log)
         keep(g, by_q + i, q)
         keep(g, count + i, 0.0)
-    _count(begin, end, g, reynolds, by_l, 2.0 * (angle.shape[0] - 1), count)
+    _count(begin, end, g, reynolds, by_log, 2.0 * (angle.shape[0] - 1), count)
     _count(begin, end, g, angle, by_q, 2.0, count)
     for i in range(begin, end):
         keep(g, work + ROW * PITCH + i, np.int64(np.int32(kept(g, count + i))).view(np.float64))
     fetch_all(begin, end, g, work, cells.rows)
     for i in range(begin, end):
-        keep(g, count + i, _plane(g, four + i, kept(g, by_l + i), kept(g, by_q + i)))
+        keep(g, count + i, _plane(g, four + i, kept(g, by_log + i), kept(g, by_q + i)))
         row = np.float64(kept(g, work + ROW * PITCH + i)).view(np.int64)
         keep(g, work + ROW * PITCH + i, np.int64(row + 1).view(np.float64))
     fetch_all(begin, end, g, work, cells.rows)
     for i in range(begin, end):
-        lift = _plane(g, four + i, kept(g, by_l + i), kept(g, by_q + i))
+        lift = _plane(g, four + i, kept(g, by_log + i), kept(g, by_q + i))
         n, t = _in_axes(kept(g, across + i), kept(g, along + i), kept(g, count + i), lift)
         keep(g, across + i, n)
         keep(g, along + i, t)
@@ -141,10 +142,10 @@ def _count(begin, end, g, edges, values, size, count):
 
 
 @register_jitable(**WITHIN)
-def _plane(g, at, l, q):
+def _plane(g, at, log, q):
     """Value of a cell at ln Re and angle, its four numbers in rows of g."""
     low = kept(g, at) + kept(g, at + 2 * PITCH) * q
-    return low + (kept(g, at + PITCH) + kept(g, at + 3 * PITCH) * q) * l
+    return low + (kept(g, at + PITCH) + kept(g, at + 3 * PITCH) * q) * log
 
 
 @njit(**OPTIONS)
@@ -163,13 +164,18 @@ def _law_of_angle(square, along, reynolds, angle, rows):
     side = 1.0 if along >= 0.0 else -1.0
     r2 = n * n + s * s
     r = np.sqrt(r2)
-    l, q = _slant(square, along, reynolds, angle)
-    i, by_log = _cell(reynolds, l)
+    log, q = _slant(square, along, reynolds, angle)
+    i, by_logog = _cell(reynolds, log)
     j, by_angle = _cell(angle, q)
     row = 2 * (i * (angle.shape[0] - 1) + j)
-    drag, drag_l, drag_q = _plane_with_slopes(rows[row], l, q)
-    lift, lift_l, lift_q = _plane_with_slopes(rows[row + 1], l, q)
-    drag_l, lift_l, drag_q, lift_q = by_log * drag_l, by_log * lift_l, by_angle * drag_q, by_angle * lift_q
+    drag, drag_l, drag_q = _plane_with_slopes(rows[row], log, q)
+    lift, lift_l, lift_q = _plane_with_slopes(rows[row + 1], log, q)
+    drag_l, lift_l, drag_q, lift_q = (
+        by_logog * drag_l,
+        by_logog * lift_l,
+        by_angle * drag_q,
+        by_angle * lift_q,
+    )
     drag_n, lift_n = _by_speed(n, s, r2, drag_l, drag_q, lift_l, lift_q)
     drag_s, lift_s = _by_speed(s, -n, r2, drag_l, drag_q, lift_l, lift_q)
     p, t = drag * n + lift * s, drag * s - lift * n
@@ -185,10 +191,10 @@ def _law_of_angle(square, along, reynolds, angle, rows):
 
 
 @njit(**OPTIONS)
-def _plane_with_slopes(row, l, q):
+def _plane_with_slopes(row, log, q):
     """Value of the plane of a cell at ln Re and angle, and its slopes by both."""
     low, high = row[0] + row[2] * q, row[1] + row[3] * q
-    return low + high * l, high, row[2] + row[3] * l
+    return low + high * log, high, row[2] + row[3] * log
 
 
 @njit(**OPTIONS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -32,7 +33,7 @@ def place(square):
 
     Bits of positive numbers rise with them; whatever is beyond the curve, NaN too, is kept to it.
     """
-    bits = min(max(np.float64(square).view(np.int64), _LEAST), _MOST)
+    bits = min(max(int(np.float64(square).view(np.int64)), _LEAST), _MOST)
     part = np.int64(((bits & _FRACTION) << NODE_BITS) | _ONE).view(np.float64) - 1.0
     return (bits >> SHIFT) - FIRST, part, bits
 
@@ -48,10 +49,19 @@ def cubic(curve, square):
     return a + t * (b + t * (c + t * d)), steep * (b + t * (2.0 * c + t * 3.0 * d))
 
 
+@register_jitable(**WITHIN)
+def in_strides(begin, end):
+    """End of the last of the strides from begin on that are needed to come to end."""
+    return begin + (end - begin + STRIDE - 1) // STRIDE * STRIDE
+
+
 @njit(**OPTIONS)
 def find(begin, end, g, square, work):
-    """Find the places of squares that lie in g from square + begin on, for read; work: place of the work rows in g."""
-    for i in range(begin, end):
+    """Find the places of squares that lie in g from square + begin on, for read, to the end of the last stride.
+
+    work: place of the work rows in g.
+    """
+    for i in range(begin, in_strides(begin, end)):
         row, part, _ = place(kept(g, square + i))
         keep(g, work + ROW * PITCH + i, np.int64(row).view(np.float64))
         keep(g, work + PART * PITCH + i, part)
@@ -59,10 +69,7 @@ def find(begin, end, g, square, work):
 
 @njit(**OPTIONS)
 def read(begin, end, g, work, curve, out):
-    """Put values of a curve at the places that find found into g from out + begin on.
-
-    begin: a whole number of strides; what lies up to a whole stride behind end is read and written too.
-    """
+    """Put values of a curve at the places that find found into g from out + begin on."""
     fetch_all(begin, end, g, work, curve)
     first = work + FOUR * PITCH
     for i in range(begin, end):
@@ -74,48 +81,51 @@ def read(begin, end, g, work, curve, out):
 
 @njit(**OPTIONS)
 def fetch_all(begin, end, g, work, table):
-    """Bring the four numbers of the rows of a table into the work rows from FOUR on; a stride at a time."""
+    """Bring the four numbers of the rows ROW of a table into the work rows FOUR, to the end of the last stride."""
     for i in range(begin, end, STRIDE):
         _fetch(table, g, work + ROW * PITCH + i, work + FOUR * PITCH + i)
+
+
+def _shuffled(builder: Any, one: Any, other: Any, places: Sequence[int]) -> Any:
+    mask = ir.Constant(ir.VectorType(ir.IntType(32), len(places)), list(places))
+    return builder.shuffle_vector(one, other, mask)
+
+
+def _columns(builder: Any, lines: Sequence[Any]) -> list[Any]:
+    """Turn eight vectors of four numbers into four of eight."""
+    pairs = [_shuffled(builder, lines[k], lines[k + 1], range(8)) for k in range(0, 8, 2)]
+    columns = []
+    for first in (0, 2):
+        taken = [first + which + line for which in (0, 1) for line in (0, 4, 8, 12)]
+        halves = [_shuffled(builder, pairs[k], pairs[k + 1], taken) for k in (0, 2)]
+        columns += [
+            _shuffled(builder, halves[0], halves[1], [*range(k, k + 4), *range(k + 8, k + 12)])
+            for k in (0, 4)
+        ]
+    return columns
 
 
 @intrinsic
 def _fetch(typing, table, g, rows, out):
     """Bring rows of four numbers, which lie together in a table, into four rows of STRIDE numbers, PITCH apart.
 
-    Rows are int64 in g from the place rows on. Eight loads and a transposition in vector registers take a fraction of
-    what the 32 loads of four gathers do.
+    Rows are int64 in g from the place rows on. Eight loads and a transposition in registers take a fraction of the time
+    of four gathers, which load 32 times.
     """
-    number, whole = ir.DoubleType(), ir.IntType(64)
-    four = ir.VectorType(number, 4)
-
-    def shuffle(builder, one, other, places):
-        mask = ir.Constant(ir.VectorType(ir.IntType(32), len(places)), list(places))
-        return builder.shuffle_vector(one, other, mask)
 
     def code(context, builder, signature, args):
-        curves, work = (
-            context.make_array(signature.args[k])(context, builder, args[k]).data for k in range(2)
-        )
+        number, whole = ir.DoubleType(), ir.IntType(64)
+        four, eight = ir.VectorType(number, 4).as_pointer(), ir.VectorType(number, STRIDE).as_pointer()
+        curves, work = (context.make_array(signature.args[k])(context, builder, args[k]).data for k in (0, 1))
         lines = []
         for lane in range(STRIDE):
             at = builder.gep(work, [builder.add(args[2], whole(lane))])
             row = builder.load(builder.bitcast(at, whole.as_pointer()), align=8)
             line = builder.gep(curves, [builder.shl(row, whole(2))])
-            lines.append(builder.load(builder.bitcast(line, four.as_pointer()), align=8))
-        # Numbers 0, 1 and 2, 3 of two lines, then of four, then each number of all eight.
-        pairs = [shuffle(builder, lines[k], lines[k + 1], range(8)) for k in range(0, STRIDE, 2)]
-        halves = [
-            [shuffle(builder, pairs[k], pairs[k + 1], [n + m for n in (q, q + 1) for m in (0, 4, 8, 12)])
-             for k in (0, 2)]
-            for q in (0, 2)
-        ]  # fmt: skip
-        for k in range(4):
-            first = 4 * (k % 2)
-            both = [*range(first, first + 4), *range(first + 8, first + 12)]
-            column = shuffle(builder, *halves[k // 2], both)
+            lines.append(builder.load(builder.bitcast(line, four), align=8))
+        for k, column in enumerate(_columns(builder, lines)):
             at = builder.gep(work, [builder.add(args[3], whole(k * PITCH))])
-            builder.store(column, builder.bitcast(at, column.type.as_pointer()), align=8)
+            builder.store(column, builder.bitcast(at, eight), align=8)
 
     flat = table.layout == "C" and g.layout == "C"
     return (types.void(table, g, types.int64, types.int64), code) if flat else None

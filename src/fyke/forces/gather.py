@@ -20,6 +20,7 @@ from .around import (
     KNOT_DRAG,
     KNOT_REYNOLDS,
     KNOT_ROWS,
+    KNOT_SHARE,
     NORMAL,
     PITCH,
     REST_LENGTH,
@@ -147,7 +148,7 @@ def _by_knot_laws(size, own, first, knots, curve, g):
     vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, curve)
     for i in range(size):
         c = take(knots, first + KNOT_DRAG * BLOCK + i) * summed(g, SPEED * PITCH + i)
-        c *= kept(g, ACROSS * PITCH + i) - 1.0
+        c *= take(knots, first + KNOT_SHARE * BLOCK + i) * (kept(g, ACROSS * PITCH + i) - 1.0)
         for q in range(3):
             w = take(fields, u + q * width + i) - take(fields, v + q * width + i)
             put(g, q * PITCH + i, summed(g, q * PITCH + i) + c * w)
@@ -155,7 +156,7 @@ def _by_knot_laws(size, own, first, knots, curve, g):
 
 @njit(**OPTIONS)
 def _flow_past(begin, end, own, others, scale, g):
-    """Re^2 across one slot's bars into ACROSS, Re along them into ALONG; scale: an array and the place of Re / speed."""
+    """Re^2 across one slot's bars into ACROSS, Re along them into ALONG; scale: array and place of Re over speed."""
     fields, width, x, v, u = own
     far, pitch, far_x, far_v, far_u = others
     per_speed, first = scale

@@ -65,8 +65,8 @@ def _on_the_whole(square, along, c, k):
 def vary(begin, end, g, flow, work, reference, curves):
     """Put c_n and c_t (kg/m2) of bars in place of Re^2 across them and Re along them.
 
-    flow: places of both in g less begin, a whole number of strides; work: place of LAW_ROWS rows in g; reference: c_n
-    and c_t of Elements, each an array and a place in it, less begin.
+    What lies in g up to the end of the last stride is written too. flow: places of both in g less begin; work: place of
+    LAW_ROWS rows in g; reference: c_n and c_t of Elements, each an array and a place in it, less begin.
     """
     across, along = flow
     c, c_at, k, k_at = reference
@@ -192,9 +192,10 @@ def _split_laws(c, k, across, viscous, along, out):
 
 @njit(**OPTIONS)
 def coefficients_of_knots(rel, el, drag, slope):
-    """Present 1/2 rho C_D pi/4 d^2 (kg/m) of the knots into drag (n,), its slope by the speed squared into slope."""
+    """Present drag (kg/m) of the knots over |w| w into drag (n,), its slope by the speed squared into slope (n,)."""
     curve = el.knot_curve
     for i in range(rel.shape[0]):
         square, r2 = rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2, el.knot_reynolds[i] ** 2
         value, steep = cubic(curve, square * r2) if curve.shape[0] > 0 else (1.0, 0.0)
-        drag[i], slope[i] = el.knot_drag[i] * value, el.knot_drag[i] * steep * r2
+        drag[i] = el.knot_drag[i] * (1.0 + el.knot_share[i] * (value - 1.0))
+        slope[i] = el.knot_drag[i] * el.knot_share[i] * steep * r2

@@ -48,7 +48,7 @@ def knot_forces(v, u, el, rel, g, out):
 
 @njit(**OPTIONS)
 def _knot_laws(v, u, el, g, out):
-    """C_D of the knots over that of Elements into the first column of out."""
+    """Drag of the knots over that of Elements into the first column of out."""
     for start in range(0, v.shape[0], BLOCK):
         size = min(BLOCK, v.shape[0] - start)
         for i in range(size):
@@ -57,7 +57,7 @@ def _knot_laws(v, u, el, g, out):
             g[ACROSS * PITCH + i] = square * el.knot_reynolds[k] ** 2
         vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, el.knot_curve)
         for i in range(size):
-            out[start + i, 0] = g[ACROSS * PITCH + i]
+            out[start + i, 0] = 1.0 + el.knot_share[start + i] * (g[ACROSS * PITCH + i] - 1.0)
 
 
 @njit(**OPTIONS)

@@ -25,7 +25,8 @@ class Elements(NamedTuple):
     N, weight less buoyancy and dead load; free: (n,) 1 where free, 0 where held.
     plain: all drag coefficients are constant. If not: bar_reynolds: (m,), knot_reynolds: (n,) s/m, thickness over
     viscosity; bar_curves: what makes the present ones of normal_drag and tangential_drag, see system.curves;
-    knot_curve: C_D over that in knot_drag, (INTERVALS, 4), or (0, 4) where it is constant.
+    knot_curve: C_D of knots over that in knot_drag, (INTERVALS, 4), or (0, 4) where it is constant; knot_share: (n,)
+    part of knot_drag that belongs to the knot and not to a body at it, whose coefficient is constant.
     drag_slopes: (4, m), knot_slopes: (n,), where normal_drag, tangential_drag and knot_drag are those of one moment:
     their slopes, see forces.laws; else (4, 0) and (0,).
     """
@@ -49,8 +50,9 @@ class Elements(NamedTuple):
     free: Array
     plain: bool
     bar_reynolds: Array
-    knot_reynolds: Array
     bar_curves: BarCurves
+    knot_reynolds: Array
+    knot_share: Array
     knot_curve: Array
     drag_slopes: Array
     knot_slopes: Array

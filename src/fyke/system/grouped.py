@@ -57,8 +57,9 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         free=el.free[knots],
         plain=el.plain,
         bar_reynolds=el.bar_reynolds[bars],
-        knot_reynolds=el.knot_reynolds[knots],
         bar_curves=el.bar_curves,
+        knot_reynolds=el.knot_reynolds[knots],
+        knot_share=el.knot_share[knots],
         knot_curve=el.knot_curve,
         drag_slopes=el.drag_slopes,
         knot_slopes=el.knot_slopes,
@@ -96,5 +97,5 @@ def _net(net: Net, fine: Grid, coarse: Grid, knots: Indices, bars: Indices, elem
         knot_diameter=net.knot_diameter[knots],
         knot_density=net.knot_density[knots],
         load=net.load[knots],
-        panels=(replace(panel, meshes=coarse.meshes, knots=(0, n), bars=(0, m)),),
+        panels=(replace(panel, meshes=coarse.meshes, knots=np.arange(n), bars=np.arange(m)[:, None]),),
     )
