@@ -254,7 +254,7 @@ def _stepper(parts: Parts) -> Iterator[Finding]:
             yield ("solve", key), found, "rtol and atol with auto, implicit, newmark and verner only", cure
     drag = parts.raw.get("drag")
     if solve.stepper in _EXPLICIT and isinstance(drag, dict) and drag.get("kind") == "screens":
-        found = f'"{solve.stepper}" with screens, whose drag only implicit steps can follow'
+        found = f'"{solve.stepper}" with screens, which explicit steps do not know'
         allowed = '"auto", "implicit" or "newmark" with [drag] kind = "screens"'
         yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
     if solve.max_step is not None and solve.max_step > solve.duration:
