@@ -9,17 +9,18 @@ from typing import Any, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from ..netting.twine import MATERIALS
+from ..netting.twine import MATERIALS, PACKING, Material, diameter_of
 from .added_mass import added_mass_file_problems, added_mass_findings
 from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, reference
+from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
-from .twine import TableSpec, TwineSpec
+from .twine import MaterialSpec, TableSpec, TwineSpec
 from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
@@ -37,6 +38,7 @@ class Parts:
     """The raw case file and every part of it that is valid by itself; paths start with these keys."""
 
     raw: dict[str, Any]
+    materials: dict[str, Material]
     twines: dict[str, TwineSpec]
     nettings: dict[str, NettingSpec]
     gear: dict[int, Part]
@@ -47,9 +49,14 @@ class Parts:
         """Take a raw case apart; folder: where relative file names count from."""
         gear = raw.get("gear")
         parts = {i: _part(one) for i, one in enumerate(gear if isinstance(gear, list) else [])}
+        own = {name: spec.material(name) for name, spec in _named(MaterialSpec, raw, "material").items()}
+        twines = _named(TwineSpec, raw, "twine")
+        for twine in twines.values():
+            twine.settle(MATERIALS | own)
         return cls(
             raw,
-            _named(TwineSpec, raw, "twine"),
+            MATERIALS | own,
+            {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
             _named(NettingSpec, raw, "netting"),
             {i: part for i, part in parts.items() if part is not None},
             folder,
@@ -113,11 +120,22 @@ class Parts:
 def findings(parts: Parts) -> Iterator[Finding]:
     """Everything that is wrong between keys and tables."""
     for name, keys in parts.tables("twine"):
-        yield from _twine_keys(("twine", name), keys)
+        yield from _twine_keys(("twine", name), keys, parts)
+        yield from _thickness_keys(("twine", name), keys)
     for name, keys in parts.tables("netting"):
         there = [one for one, _ in parts.items("twine")]
         yield from reference(("netting", name, "twine"), keys, "twine", there)
+    for name, _ in parts.tables("material"):
+        if name in MATERIALS:
+            allowed = "a name of its own: " + ", ".join(MATERIALS) + " are there already"
+            yield (
+                ("material", name),
+                written(name),
+                allowed,
+                f"write [material.{name}-mine], say, or use {name}",
+            )
     for name, twine in parts.twines.items():
+        yield from _fibre(("twine", name), twine)
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
@@ -167,13 +185,20 @@ def _items(raw: dict[str, Any], table: str) -> list[tuple[str, Any]]:
     return list(inner.items()) if isinstance(inner, dict) else []
 
 
-def _twine_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
+def _twine_keys(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
     if "law" in keys and "youngs_modulus" in keys:
         yield (*path, "law"), "both youngs_modulus and law", "one elastic law", "leave out one of the two"
     name = keys.get("material")
-    if name is not None and not (isinstance(name, str) and name in MATERIALS):
+    if name is not None and not (isinstance(name, str) and name in parts.materials):
+        there = [*MATERIALS, *(own for own, _ in parts.tables("material"))]
+        if isinstance(name, str) and name not in there:
+            allowed, near = " or ".join(written(one) for one in there), nearest(name, there)
+            cure = (
+                f'did you mean "{near}"?' if near else f"choose {allowed}, or add a table [material.{name}]"
+            )
+            yield (*path, "material"), written(name), allowed, cure
         return  # what the material would give is not known
-    material = MATERIALS[name] if name else None
+    material = parts.materials[name] if name else None
     if material is None and "density" not in keys:
         cure = 'add density = 1140.0, or material = "PA"'
         yield (*path, "density"), "neither density nor material", "density, kg/m3", cure
@@ -181,6 +206,32 @@ def _twine_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
         found = f"no modulus, and none is known for {name}" if name else "neither youngs_modulus nor material"
         allowed, cure = "youngs_modulus, Pa, or a law", 'add youngs_modulus = "1.0 GPa" or a law'
         yield (*path, "youngs_modulus"), found, allowed, cure
+
+
+def _thickness_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
+    """What is wrong with the keys that say how thick a twine is."""
+    if not {"diameter", "rtex"} & keys.keys():
+        cure = 'add diameter = "1.5 mm", or rtex = "2000 tex"'
+        yield (*path, "diameter"), "nothing", "diameter, m, or rtex, the mass per length", cure
+    if "packing" in keys and ("diameter" in keys or "rtex" not in keys):
+        found = "both packing and diameter" if "diameter" in keys else "packing without rtex"
+        allowed = "packing with rtex alone, where it makes the diameter"
+        yield (*path, "packing"), found, allowed, "leave out packing" + " or diameter" * ("rtex" in keys)
+
+
+def _fibre(path: Path, twine: TwineSpec) -> Iterator[Finding]:
+    """What is wrong with a twine that is said to hold more fibre than there is room for."""
+    density, diameter = twine.resolved_density, twine.given_diameter
+    if density is None or diameter is None or twine.rtex is None:
+        return
+    solid = diameter_of(twine.rtex, density, 1.0)
+    if solid > diameter * (1.0 + 1e-9):
+        found = f"{twine.rtex * 1e6:g} tex in a diameter of {diameter * 1e3:g} mm"
+        allowed = f"at least {solid * 1e3:.4g} mm, which fibre of {density:g} kg/m3 fills without pores"
+        cure = (
+            f"check the units; a packing of {PACKING:g} makes {diameter_of(twine.rtex, density) * 1e3:.4g} mm"
+        )
+        yield (*path, "rtex"), found, allowed, cure
 
 
 def _table_law(path: Path, twine: TwineSpec) -> Iterator[Finding]:

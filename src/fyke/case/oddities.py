@@ -85,6 +85,8 @@ def _unused(case: Case) -> Iterator[str]:
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
     for name in sorted(case.twine.keys() - spun):
         yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
+    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
+        yield f"Material '{name}' is not used by any twine."
 
 
 def _no_effect(case: Case) -> Iterator[str]:

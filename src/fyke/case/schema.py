@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
-from ..netting.twine import Twine
+from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .current import Current
 from .drag import Drag, hung_solidity
@@ -19,7 +19,7 @@ from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
-from .twine import TwineSpec
+from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
 
@@ -132,6 +132,9 @@ class Case(Table):
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
     waves: WavesSpec | None = Field(default=None, description="the waves")
+    material: Annotated[dict[Name, MaterialSpec], BeforeValidator(_named_tables("material"))] = Field(
+        default={}, description="materials of your own by name"
+    )
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
@@ -157,6 +160,8 @@ class Case(Table):
         self._text = known.get("text", "")
         self._path = known.get("path")
         self._warnings = known.get("warnings", ())
+        for twine in self.twine.values():
+            twine.settle(self.materials)
         for number, part in enumerate(self.gear, 1):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
@@ -182,6 +187,11 @@ class Case(Table):
     def warnings(self) -> tuple[str, ...]:
         """What is allowed but looks odd, sentences with the number and the limit."""
         return self._warnings
+
+    @property
+    def materials(self) -> dict[str, Material]:
+        """The materials that twines can be made of, by name: those of fyke and those of the file."""
+        return MATERIALS | {name: spec.material(name) for name, spec in self.material.items()}
 
     @property
     def twines(self) -> dict[str, Twine]:

@@ -47,14 +47,23 @@ velocity = [0.5, 0.0, 0.0]           # m/s; or ["1 kn", 0.0, 0.0]; or, instead o
 # spreading = { exponent = 10, directions = 15 }
 
 [twine.main]                         # any number of twines, each with a name
-material = "PA"                      # PA, PES, PP, PE or UHMWPE: density and modulus where you give none
-density = 1140.0                     # kg/m3
-diameter = "1.5 mm"
+material = "PA"                      # PA, PES, PP, PE, UHMWPE, CuZn or your own: density, modulus where you give none
+density = 1140.0                     # kg/m3, of the fibre
+diameter = "1.5 mm"                  # or, instead of it or with it, the mass per length:
+# rtex = "2000 tex"
+# packing = 0.65                     # share of fibre in the cross-section, where rtex makes the diameter
 youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "linear", youngs_modulus = "1.0 GPa" }
 # law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
+# law = { kind = "quadratic", c1 = "1160 N", c2 = "37.3 kN" }
 # law = { kind = "table", strain = [0.0, 0.05, 0.1], tension = [0.0, 20.0, 60.0] }   # N
 # damping_time = "20 us"             # Kelvin-Voigt retardation time; by default from the loss factor of the material
+
+# [material.own]                     # a material of your own, material = "own" in a twine
+# density = 1140.0                   # kg/m3
+# youngs_modulus = "1.0 GPa"
+# loss_factor = 0.02                 # tan delta, from which twine damping comes
+# source = "data sheet of the maker"
 
 [netting.main]                       # any number of nettings, each with a name
 twine = "main"

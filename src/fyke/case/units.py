@@ -92,6 +92,19 @@ FORCE = Kind(
     "2 kN",
 )
 MASS = Kind("mass", "kg", {"kg": Fraction(1), "g": Fraction("1e-3"), "t": Fraction(1000)}, "250 g")
+LINEAR_DENSITY = Kind(
+    "mass per length",
+    "kg/m",
+    {
+        "tex": Fraction("1e-6"),
+        "dtex": Fraction("1e-7"),
+        "ktex": Fraction("1e-3"),
+        "den": Fraction("1e-6") / 9,
+        "g/m": Fraction("1e-3"),
+        "kg/m": Fraction(1),
+    },
+    "2000 tex",
+)
 VISCOSITY = Kind(
     "kinematic viscosity",
     "m2/s",
@@ -109,6 +122,7 @@ KINDS = (
     TIME,
     PRESSURE,
     DENSITY,
+    LINEAR_DENSITY,
     FORCE,
     MASS,
     VISCOSITY,

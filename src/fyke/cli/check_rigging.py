@@ -37,7 +37,10 @@ def _rope(system: System, knots: Any, bars: Any) -> dict[str, Any]:
         "built": built,
         "strain": built / length - 1.0,
         "stiffness": float(system.elements.stiffness[bars[0]] * rest[0]),
-        "weight_in_water": water.gravity * (twine.density - water.density) * twine.area * length,
+        "weight_in_water": water.gravity
+        * (twine.soaked_density(water.density) - water.density)
+        * twine.area
+        * length,
     }
 
 

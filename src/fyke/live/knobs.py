@@ -115,7 +115,8 @@ def _twine(case: Case, name: str) -> list[Knob]:
     def put(raw: Raw, value: float) -> None:
         raw["twine"][name]["diameter"] = value
 
-    knobs = [_length(f"{key}.diameter", group, "Diameter", spec.diameter, put)]
+    # A diameter from rtex keeps to it, and a diameter besides rtex to the fibre that must fit in.
+    knobs = [] if spec.rtex else [_length(f"{key}.diameter", group, "Diameter", spec.diameter, put)]
     modulus = getattr(spec.resolved_law, "youngs_modulus", None)
     if modulus is not None and spec.law is None:
         shown = modulus / 1e9
