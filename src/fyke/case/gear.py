@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, PrivateAttr
 
-from ..netting.lattice import Edge, MeshKind, flat_strain, hung_size
+from ..netting.lattice import INTERVALS, Edge, MeshKind, flat_strain, hung_size
 from ..netting.net import Net, Side
 from ..netting.panel import panel, panel_axes
 from ..netting.twine import Twine
@@ -72,8 +72,11 @@ class Sheet:
         return self.rims is not None and self.rims[0] == 0.0
 
     def strain(self, netting: NettingSpec) -> float:
-        """Strain of the longest bars as built, negative where all are slack; where it is widest."""
-        width = self.size[0] if self.rims is None else pi * max(self.rims)
+        """Strain of the longest bars as built, from knot to knot where it is widest; negative where all are slack."""
+        width = self.size[0]
+        if self.rims is not None:
+            columns = INTERVALS[netting.mesh] * self.meshes[0]
+            width = columns * max(self.rims) * sin(pi / columns)
         return max(flat_strain(netting.mesh, self.meshes, netting.bar_length, (width, self.size[1])))
 
     def edge(self, side: Side) -> tuple[int, float]:
@@ -86,7 +89,7 @@ class Sheet:
 
     def has(self, i: int, j: int, mesh: MeshKind) -> bool:
         """Whether it has a knot i-j of its own."""
-        steps = 2 if mesh == "diamond" else 1
+        steps = INTERVALS[mesh]
         last = (steps * self.meshes[0] - (self.rims is not None), steps * self.meshes[1] - self.sewn)
         there = i <= last[0] and j <= last[1] and (mesh == "square" or (i + j) % 2 == 0)
         return there and not (self.tip and j == 0 and i > 0)

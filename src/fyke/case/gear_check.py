@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, cast
 
+from ..netting.lattice import INTERVALS
 from .gear import LARGEST_STRAIN, NettingSpec, PanelSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
@@ -300,7 +301,7 @@ def _knot(
     elif name in sheets:
         sheet, netting = sheets[name]
         if not sheet.has(int(match[2]), int(match[3]), netting.mesh):
-            steps = 2 if netting.mesh == "diamond" else 1
+            steps = INTERVALS[netting.mesh]
             last = (steps * sheet.meshes[0] - bool(sheet.rims), steps * sheet.meshes[1] - sheet.sewn)
             allowed = f"a knot of '{name}': columns 0 to {last[0]}, rows 0 to {last[1]} from below"
             allowed += "; of diamond netting those whose sum is even" * (steps == 2)
