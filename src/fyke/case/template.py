@@ -55,6 +55,7 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
 # law = { kind = "table", strain = [0.0, 0.05, 0.1], tension = [0.0, 20.0, 60.0] }   # N
 # damping_time = "20 us"             # Kelvin-Voigt retardation time; by default from the loss factor of the material
+# breaking_strength = "250 N"          # of one twine, wet and knotted; the largest tension is compared with it
 
 [netting.main]                       # any number of nettings, each with a name
 twine = "main"

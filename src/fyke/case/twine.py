@@ -9,7 +9,7 @@ from pydantic import AfterValidator, Field
 
 from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, TableLaw
 from ..netting.twine import MATERIALS, Twine
-from .fields import Density, Length, Modulus, Table
+from .fields import Density, Force, Length, Modulus, Table
 from .quantity import Quantity, wrong
 from .units import FORCE, RATIO, TIME
 
@@ -85,6 +85,9 @@ class TwineSpec(Table):
         "from the material's loss factor by default",
         examples=["20 us"],
     )
+    breaking_strength: Force | None = Field(
+        default=None, description="N, of one twine or rope, wet and knotted as it is used", examples=["250 N"]
+    )
 
     @property
     def resolved_density(self) -> float | None:
@@ -142,4 +145,5 @@ class TwineSpec(Table):
             damping_time=self.damping_time or 0.0,
             material=self.material or "",
             loss_factor=self.resolved_loss_factor,
+            breaking_strength=self.breaking_strength,
         )

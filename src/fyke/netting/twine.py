@@ -56,7 +56,7 @@ class Twine:
     density: of the twine (kg/m3); diameter: m; damping_time: retardation time of the Kelvin-Voigt damping (s),
     tension = T(strain) + damping_time dT/dt, zero by default and never letting a bar push; loss_factor: tan delta,
     which adds to the retardation time of each bar as much as makes this loss at the bar's ringing, see
-    system.build.ringing.
+    system.build.ringing; breaking_strength: N, None where it is not known.
     """
 
     name: str
@@ -66,6 +66,7 @@ class Twine:
     damping_time: float = 0.0
     material: str = ""
     loss_factor: float = 0.0
+    breaking_strength: float | None = None
 
     @property
     def area(self) -> float:
