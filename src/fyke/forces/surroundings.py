@@ -39,6 +39,27 @@ def _immersed(depth, radius):
 
 
 @njit(**OPTIONS)
+def _immersed_part(low, high, radius):
+    """Part under water of a round body of this radius whose depth goes from low to high (m)."""
+    if abs(high - low) > 1e-6 * radius:
+        return (_immersed(high, radius) - _immersed(low, radius)) / (high - low)
+    return min(max(0.5 * (low + radius) / radius, 0.0), 1.0)
+
+
+@njit(**OPTIONS)
+def wet_faces(z, elevation, corners, radius, out):
+    """Part under water of every face of netting into out (p,): the mean of its diagonals as if they were twines.
+
+    z, elevation: (n,) m, as in wet_parts; corners: (p, 4) knots; radius: (p,) m, of the twine.
+    """
+    for f in range(out.shape[0]):
+        for first in range(2):
+            a, c = corners[f, first], corners[f, first + 2]
+            part = _immersed_part(elevation[a] - z[a], elevation[c] - z[c], radius[f])
+            out[f] = 0.5 * part if first == 0 else out[f] + 0.5 * part
+
+
+@njit(**OPTIONS)
 def wet_parts(z, elevation, el, bar_radius, knot_radius, bars, knots):
     """Part under water of every bar into bars (m,) and of every knot, or what hangs there, into knots (n,), spheres.
 
@@ -51,12 +72,7 @@ def wet_parts(z, elevation, el, bar_radius, knot_radius, bars, knots):
         knots[i] = part * part * (3.0 - 2.0 * part)
     for e in range(bar_radius.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
-        low, high = elevation[a] - z[a], elevation[b] - z[b]
-        r = bar_radius[e]
-        if abs(high - low) > 1e-6 * r:
-            bars[e] = (_immersed(high, r) - _immersed(low, r)) / (high - low)
-        else:
-            bars[e] = min(max(0.5 * (low + r) / r, 0.0), 1.0)
+        bars[e] = _immersed_part(elevation[a] - z[a], elevation[b] - z[b], bar_radius[e])
 
 
 @njit(**OPTIONS)
@@ -179,6 +195,8 @@ class Surroundings:
             u = u + waves.velocity
         el = self._added_by_angle(x, u - v) if self._by_angle else system.elements
         displaced = system.displaced
+        if self.screens is not None:
+            self.screens.wet.fill(1.0)
         if waves is not None or self.near_surface(x, 0.0):
             el, displaced = self._wetted(el, x, np.zeros(len(x)) if waves is None else waves.elevation)
         if waves is not None:
@@ -203,7 +221,11 @@ class Surroundings:
         if float((x[:, 2] - elevation).max(initial=-np.inf)) < -self._reach:
             return el, whole
         bars, knots = np.empty(len(el.rest_length)), np.empty(len(x))
-        wet_parts(np.ascontiguousarray(x[:, 2]), elevation, el, *self._radius, bars, knots)
+        z = np.ascontiguousarray(x[:, 2])
+        wet_parts(z, elevation, el, *self._radius, bars, knots)
+        if self.screens is not None and self.faces is not None:
+            corners = self.screens.arrays.corners
+            wet_faces(z, elevation, corners, 0.5 * self.faces.diameter, self.screens.wet)
         displaced = Displaced(bars * whole.bar, knots * whole.knot)
         lost = whole.knot - displaced.knot
         added = system.coefficients.added_mass_knot * lost

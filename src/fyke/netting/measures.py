@@ -22,8 +22,8 @@ class PanelMeasures:
     hanging_ratios: width and height over the fully stretched ones; outline_area: of the frame (m2); solidity:
     solid projected area over outline area; twine_area: diameter times length of all bars, overlaps counted
     twice (m2); mass_per_area: dry mass of a cell, twine and knot, over its area (kg/m2); mesh_length: full
-    stretched mesh, two bars, knot centre to knot centre (m); rtex: mass per length of the twine (tex = g/km)
-    if it is as dense as stated all through its cross-section.
+    stretched mesh, two bars, knot centre to knot centre (m); rtex: mass per length of the twine (tex = g/km), as given
+    or that of fibre all through its cross-section.
     """
 
     hanging_ratios: tuple[float, float]
@@ -93,7 +93,7 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
     ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
     density = float(np.mean(net.knot_density[panel.knots]))
-    cell_mass = 2.0 * panel.bar_length * twine.density * twine.area
+    cell_mass = 2.0 * panel.bar_length * twine.mass_per_length
     cell_mass += density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
@@ -102,13 +102,13 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
         twine_area=float(twine.diameter * np.sum(net.rest_length[np.unique(panel.bars)])),
         mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),
         mesh_length=2.0 * panel.bar_length,
-        rtex=twine.density * twine.area * KILOGRAM_PER_METRE_IN_TEX,
+        rtex=twine.mass_per_length * KILOGRAM_PER_METRE_IN_TEX,
     )
 
 
 def measure_net(net: Net) -> NetMeasures:
-    """Return the figures of a whole net: bars are cylinders as long as unloaded, knots spheres."""
-    area = np.array([t.area for t in net.twines])[net.twine_of_bar]
+    """Return the figures of a whole net: bars are cylinders of fibre as long as unloaded, knots spheres."""
+    area = np.array([t.fibre_area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
     bar_volume = area * net.rest_length
     knot_volume = np.pi * net.knot_diameter**3 / 6.0

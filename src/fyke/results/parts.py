@@ -195,9 +195,8 @@ def _summed(count: int, owner: Indices, values: Array) -> Array:
 def _weights(system: System) -> tuple[Array, Array]:
     """Weight less buoyancy of every bar (m,) and of every knot (n,) N, bodies and dead loads apart."""
     net, w = system.net, system.water
-    area, density = (
-        np.array([getattr(t, name) for t in net.twines])[net.twine_of_bar] for name in ("area", "density")
-    )
+    area = np.array([t.area for t in net.twines])[net.twine_of_bar]
+    density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
     ball = np.pi / 6.0 * net.knot_diameter**3
     bars = w.gravity * (density - w.density) * area * net.rest_length
     return bars, w.gravity * (net.knot_density - w.density) * ball
