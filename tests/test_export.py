@@ -232,7 +232,9 @@ def test_a_colour_that_is_not_there_is_named(result, tmp_path):
 def test_a_net_without_bars_goes_out_too(result, vtk, tmp_path):
     net = result.net
     bare = replace(net, bars=net.bars[:0], rest_length=net.rest_length[:0], twine_of_bar=net.twine_of_bar[:0])
-    empty = {name: getattr(result, name)[:, :0] for name in ("tension", "bar_drag", "bar_lift", "water_velocity")}
+    empty = {
+        name: getattr(result, name)[:, :0] for name in ("tension", "bar_drag", "bar_lift", "water_velocity")
+    }
     lone = replace(result, net=replace(bare, panels=()), **empty)
     for write in (write_vtkhdf, write_vtu, write_csv, write_gltf):
         assert write(lone, tmp_path / write.__name__).exists()

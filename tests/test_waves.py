@@ -540,3 +540,10 @@ def test_numbers_of_waves():
     assert ursell_number(2.0, 100.0, 10.0) == pytest.approx(20.0)
     assert ursell_number(2.0, 100.0, math.inf) == 0.0
     assert keulegan_carpenter(0.8, 8.0, 2e-3) == pytest.approx(3200.0)
+
+
+def test_waves_say_what_they_are():
+    assert (airy(1.0, 8.0).named.kind, stokes2(1.0, 8.0).named.kind) == ("airy", "stokes2")
+    sea, grown = irregular(2.0, 8.0, gamma=3.3).named, irregular(2.0, 8.0, gamma=1.0).named
+    assert (sea.kind, sea.height, sea.period, sea.regular) == ("jonswap", 2.0, 8.0, False)
+    assert grown.kind == "pierson-moskowitz" and "Pierson" in grown.source

@@ -1,15 +1,15 @@
-"""Figure of drag laws over measured points: spheres and cylinders by Reynolds number, panels by angle."""
+"""Figures over measured points: drag laws of spheres and cylinders by Reynolds number, panels by angle."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MultipleLocator
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ..water.laws import BarLaw, KnotLaw, Law, PanelLaw, measured
 from ..water.laws.law import REYNOLDS
@@ -17,6 +17,7 @@ from . import style
 
 Array = NDArray[np.float64]
 Curve = tuple[str, Array, Array]  # name, Reynolds numbers, coefficients
+ByAngle = tuple[str, Array]  # name, and angles (rad), C_D and C_L, (3, k)
 
 LEFT, BELOW, ABOVE, HEIGHT = 0.52, 0.42, 0.12, 2.0  # in
 WIDTH, APART, ROOM = 2.05, 0.54, 0.12  # in: of one axes, between two, and from there to the names
@@ -41,9 +42,7 @@ def drag_laws(laws: Sequence[Law]) -> Figure:
     rows = [row for row in (knots, bars, panels) if row]
     if not rows:
         raise ValueError("no law to draw")
-    height = len(rows) * (ABOVE + HEIGHT + BELOW)
-    figure = Figure(figsize=(style.DOUBLE_COLUMN, height))
-    bottoms = [height - (number + 1) * (ABOVE + HEIGHT + BELOW) + BELOW for number in range(len(rows))]
+    figure, bottoms = _sheet(len(rows))
     for row, bottom in zip(rows, bottoms, strict=True):
         both = [_axes(figure, bottom, LEFT + side * (WIDTH + APART)) for side in (0, 1)]
         if row is knots:
@@ -52,9 +51,35 @@ def drag_laws(laws: Sequence[Law]) -> Figure:
             _draw_bars(both, bars)
         else:
             _draw_panels(both, panels)
-        place = (1.0 + ROOM / WIDTH, 1.02)
-        both[1].legend(loc="upper left", bbox_to_anchor=place, borderaxespad=0.0, handlelength=2.2)
+        _key(both[1])
     return figure
+
+
+@style.styled
+def panel_by_angle(curves: Mapping[str, ArrayLike]) -> Figure:
+    """Show drag and lift of panels of netting by the angle of the flow, over Patursson's measured panel.
+
+    curves: by name, (3, k): angles between flow and normal (rad), C_D and C_L on the outline. ValueError for none.
+    """
+    if not curves:
+        raise ValueError("no curve to draw")
+    figure, (bottom,) = _sheet(1)
+    both = [_axes(figure, bottom, LEFT + side * (WIDTH + APART)) for side in (0, 1)]
+    _draw_angles(both, [(name, np.asarray(values, dtype=float)) for name, values in curves.items()])
+    _key(both[1])
+    return figure
+
+
+def _sheet(rows: int) -> tuple[Figure, list[float]]:
+    """Return a figure for so many rows of two axes, and where each row begins above its lower edge (in)."""
+    each = ABOVE + HEIGHT + BELOW
+    figure = Figure(figsize=(style.DOUBLE_COLUMN, rows * each))
+    return figure, [(rows - number - 1) * each + BELOW for number in range(rows)]
+
+
+def _key(ax: Axes) -> None:
+    place = (1.0 + ROOM / WIDTH, 1.02)
+    ax.legend(loc="upper left", bbox_to_anchor=place, borderaxespad=0.0, handlelength=2.2)
 
 
 def _axes(figure: Figure, bottom: float, left: float) -> Axes:
@@ -109,15 +134,23 @@ def _draw_bars(both: Sequence[Axes], laws: Sequence[BarLaw]) -> None:
 
 
 def _draw_panels(both: Sequence[Axes], laws: Sequence[PanelLaw]) -> None:
-    points = measured.panel()
     angles = np.radians(np.linspace(0.0, 90.0, 181))
     solidity = measured.PANEL_SOLIDITY
-    for side, (ax, what) in enumerate(zip(both, ("Drag", "Lift"), strict=True)):
-        for number, law in enumerate(laws):
-            on_outline = solidity if law.area == "twine" else 1.0
-            values = law.coefficients(angles, solidity, measured.PANEL_REYNOLDS)[side]
-            ax.plot(np.degrees(angles), on_outline * values, label=law.name, **_look(number))
-        _mark(ax, np.degrees(points[:, 0]), points[:, 1 + side], "measured, Patursson 2010", 3.4)
+    curves = []
+    for law in laws:
+        on_outline = solidity if law.area == "twine" else 1.0
+        drag, lift = law.coefficients(angles, solidity, measured.PANEL_REYNOLDS)
+        curves.append((law.name, np.array([angles, on_outline * drag, on_outline * lift])))
+    _draw_angles(both, curves)
+
+
+def _draw_angles(both: Sequence[Axes], curves: Sequence[ByAngle]) -> None:
+    """Draw drag on the left and lift on the right over the measured panel."""
+    points = measured.panel().T
+    for side, (ax, what) in enumerate(zip(both, ("Drag", "Lift"), strict=True), start=1):
+        for number, (name, values) in enumerate(curves):
+            ax.plot(np.degrees(values[0]), values[side], label=name, **_look(number))
+        _mark(ax, np.degrees(points[0]), points[side], "measured, Patursson 2010", 3.4)
         ax.set_xlim(0.0, 90.0)
         ax.set_ylim(bottom=min(0.0, ax.dataLim.y0))
         ax.xaxis.set_major_locator(MultipleLocator(15.0))

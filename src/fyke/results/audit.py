@@ -6,14 +6,16 @@ the tensions cancel in the sum over all knots, so
 which is zero at rest and the inertia force of the net in motion.
 
 Energy, between the first and the last frame. M(x) a = F times v, summed over the knots and integrated, is
-    change of (kinetic + elastic + potential) = current - drag - twine + added mass - remainder          (J)
+    change of (kinetic + elastic + potential) = current - drag - twine + added mass + inertia - remainder  (J)
     kinetic     1/2 sum v.M v, added mass included
     elastic     sum over bars of l0 times the integral of T over strain, up to the strain of the bar
     potential   -sum (weight less buoyancy + dead load).x
-    current     integral of sum F.u, F the force of the water on a knot, u the velocity of the undisturbed water
-    drag        integral of sum F.(u - v), never negative; the water's work on the net F.v is current - drag
+    current     integral of sum F.u, F the drag and lift on a knot, u the velocity of the water there, sheltered
+    drag        integral of sum F.(u - v), never negative; the work of drag and lift on the net F.v is current - drag
     twine       integral of sum (T - T_elastic) dl/dt over the taut bars
     added mass  integral of 1/2 sum v.(dM/dt) v: the added mass of a bar turns with it, and M a = F leaves this out
+    inertia     integral of sum I.v, I the force of accelerating water on a knot and the buoyancy that it loses above
+                the surface
 Held knots do not move, so supports do no work.
 """
 
@@ -27,11 +29,12 @@ from numpy.typing import NDArray
 
 from ..forces.bars import bar_geometry, elastic
 from ..forces.frame import Frame
+from ..forces.inertia import mass_matrices
+from ..forces.surroundings import Surroundings
 from ..forces.total import TINY_LENGTH
 from ..solve.result import Result
-from ..solve.stepper import fluid_velocity
 from ..system.elements import Elements
-from ..system.system import State, System
+from ..system.system import System
 
 Array = NDArray[np.float64]
 
@@ -40,9 +43,9 @@ Array = NDArray[np.float64]
 class EnergyBudget:
     """Energy of a net between the first and the last frame, all in J; formulas at the head of the module.
 
-    kinetic, elastic, potential: changes; current_work, drag_dissipation, twine_dissipation, added_mass_work:
-    integrals of the power in the frames by the trapezoidal rule; remainder: what went in and is in none of these,
-    positive where energy got lost.
+    kinetic, elastic, potential: changes; current_work, drag_dissipation, twine_dissipation, added_mass_work,
+    inertia_work: integrals of the power in the frames by the trapezoidal rule; remainder: what went in and is in none
+    of these, positive where energy got lost.
 
     The integrals see the motion at the output times only. The remainder is therefore the numerical damping and the
     error of the method together with the error of sampling, which falls with the square of the interval between
@@ -56,12 +59,13 @@ class EnergyBudget:
     drag_dissipation: float
     twine_dissipation: float
     added_mass_work: float
+    inertia_work: float
     remainder: float
 
     @property
     def water_work(self) -> float:
         """Work of the water on the net, J."""
-        return self.current_work - self.drag_dissipation
+        return self.current_work - self.drag_dissipation + self.inertia_work
 
 
 @dataclass(frozen=True)
@@ -72,7 +76,9 @@ class Audit:
     knot's M a. unbalanced_knot: the label of this knot, None where all are held. load: hydrodynamic force, weight
     less buoyancy and dead loads of the whole net, (3,) N. load_size: sizes of the loads on the knots added up, N.
     load_less_reaction: load - support reaction, (3,) N: what the statics left unbalanced, or the inertia force of a
-    net in motion. energy: None for a single frame.
+    net in motion. mass, added_mass: kg, of the free knots and the bars' ends there, added mass as the mean of the three
+    directions; inertia_force: (3,) N, of accelerating water on the whole net and the buoyancy lost above the surface,
+    in the last frame. energy: None for a single frame.
     """
 
     unbalanced_force: float
@@ -80,6 +86,9 @@ class Audit:
     load: Array
     load_size: float
     load_less_reaction: Array
+    mass: float
+    added_mass: float
+    inertia_force: Array
     energy: EnergyBudget | None
 
     @property
@@ -96,6 +105,9 @@ class Audit:
             "load": self.load.tolist(),
             "load_size": self.load_size,
             "load_less_reaction": self.load_less_reaction.tolist(),
+            "mass": self.mass,
+            "added_mass": self.added_mass,
+            "inertia_force": self.inertia_force.tolist(),
             "relative_difference": self.relative_difference,
             "energy": None if energy is None else asdict(energy) | {"water_work": energy.water_work},
         }
@@ -109,6 +121,7 @@ def audit(system: System, result: Result) -> Audit:
     if result.net.labels != system.net.labels or not np.array_equal(result.net.bars, system.net.bars):
         raise ValueError("the result is of another net than the system")
     last, el = result.frame(), system.elements
+    mass, added_mass = _masses(system, last)
     load = last.water_force + el.weight
     size = np.linalg.norm(forces_on_knots(system, last), axis=1) * el.free
     worst = int(np.argmax(size))
@@ -118,6 +131,9 @@ def audit(system: System, result: Result) -> Audit:
         load=load.sum(axis=0),
         load_size=float(np.linalg.norm(load, axis=1).sum()),
         load_less_reaction=load.sum(axis=0) - last.support_reaction,
+        mass=mass,
+        added_mass=added_mass,
+        inertia_force=_of_moving_water(system, last)[1].sum(axis=0),
         energy=_energy_budget(system, result) if len(result.time) > 1 else None,
     )
 
@@ -195,10 +211,29 @@ def _elastic_length(el: Elements, frame: Frame) -> Array:
     return np.asarray(el.rest_length * (1.0 + strain + np.where(coefficient > 0.0, power, straight)))
 
 
-def _powers(system: System, frame: Frame) -> tuple[float, float, float, float]:
-    """Power (W) of current, drag, twine damping and turning added mass in one frame."""
-    el, force, v = system.elements, frame.water_force, frame.velocity
-    u = fluid_velocity(system, State(frame.time, frame.position, frame.velocity))
+def _masses(system: System, frame: Frame) -> tuple[float, float]:
+    """Mass and added mass (kg) of the free knots with what hangs on them."""
+    el, c = system.elements, system.coefficients
+    entries = np.empty((len(el.free), 6))
+    mass_matrices(frame.position, el, entries)
+    whole = entries[:, :3].mean(axis=1)
+    own = el.knot_mass - c.added_mass_knot * system.displaced.knot
+    return float(own @ el.free), float((whole - own) @ el.free)
+
+
+def _of_moving_water(system: System, frame: Frame) -> tuple[Array, Array]:
+    """Velocity of the water at the knots (n, 3) m/s, and the force of its acceleration and lost buoyancy (n, 3) N."""
+    surroundings = Surroundings(system)
+    surroundings.renew(frame.position, frame.time)
+    el, u = surroundings.given(frame.position, frame.velocity, frame.time)
+    return u, el.weight - system.elements.weight
+
+
+def _powers(system: System, frame: Frame) -> tuple[float, float, float, float, float]:
+    """Power (W) of current, drag, twine damping, turning added mass and fluid inertia in one frame."""
+    el, v = system.elements, frame.velocity
+    u, inertia = _of_moving_water(system, frame)
+    force = frame.water_force - inertia
     t, length = _directions(frame, el)
     va, vb = v[el.knot_a], v[el.knot_b]
     rate = np.einsum("eq,eq->e", vb - va, t)
@@ -211,6 +246,7 @@ def _powers(system: System, frame: Frame) -> tuple[float, float, float, float]:
         float(np.sum(force * (u - v))),
         float(viscous @ rate),
         -float(np.sum(el.bar_added_mass * turning)),
+        float(np.sum(inertia * v)),
     )
 
 
@@ -218,7 +254,7 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
     el = system.elements
     first, last = result.frame(0), result.frame()
     powers = np.array([_powers(system, result.frame(k)) for k in range(len(result.time))])
-    current, drag, twine, turning = np.trapezoid(powers, result.time, axis=0).tolist()
+    current, drag, twine, turning, inertia = np.trapezoid(powers, result.time, axis=0).tolist()
     kinetic = float(last.kinetic_energy - first.kinetic_energy)
     stored = [elastic_energy(el, _elastic_length(el, frame)) for frame in (first, last)]
     stretching = float(np.sum(stored[1] - stored[0]))
@@ -231,5 +267,6 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
         drag_dissipation=drag,
         twine_dissipation=twine,
         added_mass_work=turning,
-        remainder=current + turning - drag - twine - kinetic - stretching - potential,
+        inertia_work=inertia,
+        remainder=current + turning + inertia - drag - twine - kinetic - stretching - potential,
     )

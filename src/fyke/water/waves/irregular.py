@@ -11,10 +11,19 @@ from numpy.typing import NDArray
 from . import limits
 from .dispersion import wavenumber
 from .regular import GRAVITY
-from .sea import Stretching, Waves, harmonics, heading
+from .sea import Named, Stretching, Waves, harmonics, heading
 from .spectra import equal_energy_frequencies
 
 Array = NDArray[np.float64]
+
+JONSWAP = (
+    "K. Hasselmann et al., Measurements of wind-wave growth and swell decay during the Joint North Sea Wave Project, "
+    "1973, not opened; in the form of DNV-RP-C205 as cited in public codes"
+)
+PIERSON_MOSKOWITZ = (
+    "W.J. Pierson, L. Moskowitz, A proposed spectral form for fully developed wind seas, J. Geophysical Research 69, "
+    "5181-5190, 1964, not opened; in the form of DNV-RP-C205 as cited in public codes"
+)
 
 
 @dataclass(frozen=True)
@@ -84,7 +93,9 @@ def irregular(
         depth=depth,
     )
     told = tuple(limits.of_sea(significant_height, peak_period, gamma, depth, gravity))
-    return Waves(parts, heading(direction), depth, stretching, ramp, told)
+    kind, source = ("jonswap", JONSWAP) if gamma > 1.0 else ("pierson-moskowitz", PIERSON_MOSKOWITZ)
+    named = Named(kind, significant_height, peak_period, False, source)
+    return Waves(parts, heading(direction), depth, stretching, ramp, told, named)
 
 
 def _dealt(spreading: Spreading, components: int, random: np.random.Generator) -> Array:

@@ -6,9 +6,11 @@ import math
 
 from . import limits
 from .dispersion import wavenumber
-from .sea import Stretching, Waves, harmonics, heading
+from .sea import Named, Stretching, Waves, harmonics, heading
 
 GRAVITY = 9.81  # m/s2, as in a case file
+AIRY = "G.B. Airy, Tides and waves, 1845; read in public codes that agree"
+STOKES = "G.G. Stokes, On the theory of oscillatory waves, 1847; textbook formulas, the paper was not opened"
 
 
 def airy(
@@ -40,7 +42,8 @@ def airy(
         depth=depth,
     )
     told = tuple(limits.of_airy(height, period, depth, gravity))
-    return Waves(one, heading(direction), depth, stretching, ramp, told)
+    named = Named("airy", height, period, True, AIRY)
+    return Waves(one, heading(direction), depth, stretching, ramp, told, named)
 
 
 def stokes2(
@@ -79,4 +82,5 @@ def stokes2(
         depth=depth,
     )
     told = tuple(limits.of_stokes(height, period, depth, gravity))
-    return Waves(both, heading(direction), depth, "formula", ramp, told)
+    named = Named("stokes2", height, period, True, STOKES)
+    return Waves(both, heading(direction), depth, "formula", ramp, told, named)

@@ -81,6 +81,21 @@ def harmonics(
     )
 
 
+@dataclass(frozen=True)
+class Named:
+    """What a sea is called and where it comes from.
+
+    kind: the word of the case file; height: m, of a sea the significant one; period: s, of a sea at the peak of its
+    spectrum; regular: whether all waves are alike; source: of its formulas.
+    """
+
+    kind: str
+    height: float
+    period: float
+    regular: bool
+    source: str
+
+
 @dataclass(frozen=True, eq=False)
 class Waves:
     """A sea. Airy, Stokes and irregular seas differ in their harmonics only.
@@ -88,7 +103,8 @@ class Waves:
     direction: mean direction in which the waves go, a horizontal unit vector (3,). depth: m, infinite in deep water.
     stretching: what holds up to the surface: "wheeler" takes the motion of depth (z - eta) h / (h + eta); "none" holds
     that of z = 0 above it; "formula" goes on with the formula. ramp: s, over which the waves grow from nothing.
-    warnings: what is odd about them, sentences with the number and the limit.
+    warnings: what is odd about them, sentences with the number and the limit. named: what they are, None when made of
+    harmonics by hand.
 
     There is no water above the surface: points there have no motion. Points below the bed have that of the bed.
     """
@@ -99,6 +115,7 @@ class Waves:
     stretching: Stretching = "wheeler"
     ramp: float = 0.0
     warnings: tuple[str, ...] = ()
+    named: Named | None = None
 
     def motion(self, points: Array, time: float) -> Motion:
         """Return the motion of the water at points (n, 3) m and a time (s).
