@@ -53,7 +53,7 @@ def test_the_numbers_are_those_of_the_summary(page, folder):
         row.locator("dt").inner_text(): row.locator("dd").get_attribute("data-value")
         for row in page.locator("#numbers dl > div").all()
     }
-    assert float(shown["Drag, along the current"]) == summary["drag"]
+    assert float(shown["Drag, along the flow"]) == summary["drag"]
     assert float(shown["Lift, across it"]) == summary["lift"]
     bar = summary["max_tension_bar_label"]
     assert float(shown[f"Largest tension, bar {bar}"]) == summary["max_tension"]
@@ -88,7 +88,7 @@ def test_colours_can_be_those_of_another_quantity(page):
         "Bar tension (N)",
         "Bar strain (%)",
         "Local water velocity (m/s)",
-        "Angle of bar to current (deg)",
+        "Angle of bar to flow (deg)",
     ]
     for index, name in enumerate(names):
         page.locator("#quantity").select_option(str(index))

@@ -27,6 +27,8 @@ bars = { law = "constant", normal = 1.2, tangential = 0.1 }
 kind = "static"
 """
 BAR = 'bar_length = "30 mm"'
+# Without a centre the middle of a panel lies at the surface.
+BELOW = 'fixed = "edges"\ncentre = [0.0, 0.0, -1.0]'
 
 
 def problems_of(text, where="c.toml"):
@@ -36,7 +38,7 @@ def problems_of(text, where="c.toml"):
 
 
 def test_the_case_that_the_others_spoil_is_good():
-    assert parse_case(GOOD).warnings == ()
+    assert parse_case(GOOD.replace('fixed = "edges"', BELOW)).warnings == ()
 
 
 # old text, new text, then a piece of where, found, allowed and cure
@@ -390,7 +392,8 @@ def test_square_mesh_needs_both_hanging_ratios():
 
 def test_square_mesh_is_judged_along_its_bars():
     # 8 bars of 30 mm are 240 mm; 0.3 m would strain the width by 25 %, the diagonal plays no part.
-    assert parse_case(SQUARE.replace("[0.3055, 0.3055]", "[0.24, 0.24]")).warnings == ()
+    hung = SQUARE.replace("[0.3055, 0.3055]", "[0.24, 0.24]").replace('fixed = "edges"', BELOW)
+    assert parse_case(hung).warnings == ()
     (problem,) = problems_of(SQUARE.replace("[0.3055, 0.3055]", "[0.3, 0.1]"))
     assert "25 %" in problem.found
 

@@ -141,7 +141,7 @@ def test_tolerance_of_a_dynamic_case_is_warned_of():
 
 
 def test_sinking_well_hung_net_has_no_warning():
-    assert parse_case(SMALL.replace('"PE"', '"PES"')).warnings == ()
+    assert parse_case(SMALL.replace('"PE"', '"PES"') + "centre = [0.0, 0.0, -1.0]\n").warnings == ()
 
 
 def test_case_does_not_change():

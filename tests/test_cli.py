@@ -144,7 +144,8 @@ def test_figures_of_an_earlier_kind_of_run_do_not_outlive_it(case):
 def test_every_figure_is_known_to_the_folder(case):
     Path("measured.csv").write_text("knot,x,y,z\n1-1,0,0,-0.5\n")
     text = case.read_text().replace('"static"', '"dynamic"\nduration = 0.01\n[output]\nevery = 0.005')
-    case.write_text(text + '\n[compare]\npositions = "measured.csv"\n')
+    waves = '[waves]\nkind = "airy"\nheight = 0.1\nperiod = 2.0\n'
+    case.write_text(text + '\n[compare]\npositions = "measured.csv"\n' + waves)
     fyke("run", case, "--quiet")
     drawn = {file.stem for file in Path("small").iterdir() if file.suffix not in (".nc", ".json", ".csv")}
     assert drawn == set(PICTURES)

@@ -22,6 +22,7 @@ from PIL import Image
 
 from fyke.forces.frame import Frame
 from fyke.netting.elastic import LinearLaw
+from fyke.netting.faces import faces_of
 from fyke.netting.line import line
 from fyke.netting.net import Net
 from fyke.netting.panel import panel
@@ -73,9 +74,9 @@ def framed(meshes=(8, 8), size=(WIDTH, WIDTH), **options) -> Net:
 def bag(net: Net, sag: float) -> np.ndarray:
     """The panel's knots pushed along its normal, x = sag (1 - (2y/W)^2)(1 - (2z/H)^2)."""
     where = net.panels[0]
-    plan = (net.positions - where.centre) @ where.axes.T
-    depth = sag * np.prod(1.0 - (2.0 * plan / where.size) ** 2, axis=1)
-    return net.positions + depth[:, None] * np.cross(*where.axes)
+    depth = sag * np.prod(1.0 - (2.0 * where.flat / where.size) ** 2, axis=1)
+    normal = faces_of(net).vector_area(net.positions).sum(axis=0)
+    return net.positions + depth[:, None] * normal / np.linalg.norm(normal)
 
 
 @pytest.fixture(scope="module")
@@ -287,7 +288,7 @@ def test_one_plan_per_panel_on_one_scale():
     left, right = framed(name="wing"), framed(meshes=(4, 4), size=(0.16, 0.16), name="codend")
     n, m = left.knot_count, left.bar_count
     (wing,), (codend,) = left.panels, right.panels
-    codend = replace(codend, knots=(n, n + right.knot_count), bars=(m, m + right.bar_count))
+    codend = replace(codend, knots=codend.knots + n, bars=codend.bars + m)
     both = {
         name: np.concatenate([getattr(left, name), getattr(right, name)])
         for name in (

@@ -14,7 +14,9 @@ from fyke.case import CaseError
 from fyke.case.drag_table import read_drag_table
 from fyke.cli.app import app
 from fyke.report.laws import drag_laws
+from fyke.water.inertia import ADDED_MASS_LAWS
 from fyke.water.laws import LAWS, AngleTable, BarTable, measured
+from fyke.water.wakes import TWINES, WAKES
 
 BY_ANGLE = """# measured in a tank
 reynolds,angle,drag,lift
@@ -45,7 +47,10 @@ def test_every_law_is_listed_in_80_columns(monkeypatch):
 def test_json_tells_the_same():
     told = json.loads(fyke("--json").stdout)
     assert {kind: [law["name"] for law in laws] for kind, laws in told.items()} == {
-        kind: list(laws) for kind, laws in LAWS.items()
+        **{kind: list(laws) for kind, laws in LAWS.items()},
+        "wakes": list(WAKES),
+        "twines": list(TWINES),
+        "added_mass": list(ADDED_MASS_LAWS),
     }
     choo = told["bars"][1]
     assert choo["range"] == ["Re up to 1e+07"] and choo["area"] == "d l" and "126-131, 1971" in choo["source"]

@@ -43,11 +43,39 @@ def test_a_turned_knob_gives_what_a_run_of_that_case_gives(changes, text):
     study = live.Study(CASE)
     study.turn(changes)
     expected = solved(text)
+    velocity = fyke.parse_case(text).current.velocity
     assert study.numbers.drag == pytest.approx(
-        float(expected.hydrodynamic_force[-1] @ study.current / np.linalg.norm(study.current)), abs=1e-6
+        float(expected.hydrodynamic_force[-1] @ velocity / np.linalg.norm(velocity)), abs=1e-6
     )
     assert study.numbers.largest_tension == pytest.approx(float(expected.tension.max()), abs=1e-6)
     assert np.abs(study.result.position - expected.position).max() < 1e-6
+
+
+def test_waves_act_in_motion_only_and_the_page_says_so():
+    sea = "[waves]\nkind = 'airy'\nheight = 0.3\nperiod = 2.0\n"
+    dynamic = CASE + sea + "[solve]\nkind = 'dynamic'\nduration = 1\n"
+    still, waved = live.Study(CASE), live.Study(dynamic)
+    assert still.waves_note == "" and "static" in live.Study(CASE + sea).waves_note
+    assert "airy, 0.3 m, 2 s" in waved.waves_note and "without them" in waved.waves_note
+    assert waved.numbers.drag == pytest.approx(still.numbers.drag, abs=1e-6)
+    waved.reset()
+    waved.advance(0.1)
+    # 0.47 m/s of a crest come on top of 0.5 m/s of current.
+    assert np.linalg.norm(waved.result.water_velocity[-1], axis=1).max() > 0.8
+
+
+@pytest.mark.parametrize(
+    "more", ["[drag]\nkind = 'screens'\n", "[shelter]\nwake = 'loland'\ntwines = 'cheng'\n"]
+)
+def test_screens_and_shelter_are_found_anew_with_every_turn(more):
+    study = live.Study(CASE + more)
+    study.turn({"current.speed": 0.8})
+    expected = solved(CASE.replace("0.5, 0.0", "0.8, 0.0") + more)
+    assert np.abs(study.result.position - expected.position).max() < 1e-6
+    assert study.numbers.drag == pytest.approx(float(expected.hydrodynamic_force[-1, 0]), abs=1e-6)
+    study.reset()
+    study.advance(0.05)
+    assert np.isfinite(study.result.position).all()
 
 
 def test_what_makes_no_net_is_refused_and_changes_nothing():

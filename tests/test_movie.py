@@ -69,7 +69,7 @@ def painted(picture: np.ndarray, colour: tuple[int, int, int], slip: int = 12) -
 
 def test_a_picture_shows_every_bar_where_it_is_in_its_colour(machinery):
     result = swinging()
-    stage = Stage(result, Reel(size=SIZE), None)
+    stage = Stage(result, Reel(size=SIZE))
     first, last = stage.picture(0.0), stage.picture(1.0)
     assert first.shape == (SIZE[1], SIZE[0], 3) and first.dtype == np.uint8
     net = (slice(None), slice(int(0.1 * SIZE[0]), int(0.8 * SIZE[0])))  # without colours and scale
@@ -94,7 +94,7 @@ def test_the_scale_is_as_long_as_it_says(machinery, monkeypatch):
         return real(figure)
 
     monkeypatch.setattr(movie, "_drawn", listening)
-    stage = Stage(swinging(), Reel(size=(960, 540)), None)
+    stage = Stage(swinging(), Reel(size=(960, 540)))
     picture = stage.picture(0.5)
     (length,) = (float(text.split()[0]) for text in said if re.fullmatch(r"[\d.]+ m", text))
     corner = picture[int(0.93 * 540) :, :480]
@@ -167,7 +167,7 @@ def call(*words: object):
         (("run.nc", "--size", "161x90"), "even"),
         (("run.nc", "--fps", "0"), "--fps"),
         (("run.nc", "--speed", "nan"), "--speed"),
-        (("run.nc", "--colour", "taste"), "tension, strain, velocity"),
+        (("run.nc", "--colour", "taste"), "tension, strain"),
         (("none.nc",), "no such file"),
         (("run.nc", "-o", "no/such/film.mp4"), "The directory does not exist"),
     ],

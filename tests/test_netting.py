@@ -85,7 +85,8 @@ def test_two_panels_in_one_net(nylon):
     net = together(parts)
     assert (net.knot_count, net.bar_count, [t.name for t in net.twines]) == (27, 36, ["main", "thin"])
     assert net.bar_diameter[[0, 12, 24]].tolist() == [1.5e-3, 1e-3, 1.5e-3]
-    assert net.labels[9] == "back:0-0" and net.panels[1].knots == (9, 18) and net.panels[2].bars == (24, 36)
+    assert net.labels[9] == "back:0-0" and net.panels[1].knots.tolist() == list(range(9, 18))
+    assert net.panels[2].bars.tolist() == [[bar] for bar in range(24, 36)]
     alone = [fyke.solve_static(fyke.make_system(p, current=(0.6, 0.1, 0.0)), tolerance=1e-11) for p in parts]
     both = fyke.solve_static(fyke.make_system(net, current=(0.6, 0.1, 0.0)), tolerance=1e-11)
     assert np.abs(both.position[-1] - np.concatenate([r.position[-1] for r in alone])).max() < 1e-9

@@ -99,7 +99,7 @@ def assert_same(one, other):
 
 def test_the_register_names_every_variable_of_a_frame_and_a_net():
     assert [field.name for field in FRAME_FIELDS] == [f.name for f in dataclasses.fields(Frame)]
-    in_attributes = {"twines", "panels"}
+    in_attributes = {"twines", "panels", "ropes", "bodies"}
     assert set(NET_FIELDS) - {"bar_diameter"} == {f.name for f in dataclasses.fields(Net)} - in_attributes
 
 

@@ -48,7 +48,7 @@ def test_the_summary_begins_with_the_keys_of_the_contract():
 
 
 def test_the_figures_of_a_bent_line_are_those_by_hand():
-    figures = summary(bent_line(), current_direction=(2.0, 0.0, 0.0))
+    figures = summary(bent_line(), flow_direction=(2.0, 0.0, 0.0))
     assert figures["title"] == "Flume panel, 4 °C"
     assert figures["outcome"] == "converged"
     assert (figures["knots"], figures["bars"], figures["slack_bars"]) == (3, 2, 1)
@@ -66,10 +66,10 @@ def test_the_figures_of_a_bent_line_are_those_by_hand():
 
 
 def test_the_current_may_come_from_anywhere():
-    figures = summary(bent_line(), current_direction=(3.0, 4.0, 0.0))
+    figures = summary(bent_line(), flow_direction=(3.0, 4.0, 0.0))
     assert figures["drag"] == pytest.approx(6.0 * 0.6 + 8.0 * 0.8, rel=1e-15)
     assert figures["lift"] == pytest.approx(24.0, rel=1e-15)
-    assert summary(bent_line(), current_direction=(0.0, 0.0, 0.0))["drag"] is None
+    assert summary(bent_line(), flow_direction=(0.0, 0.0, 0.0))["drag"] is None
     assert summary(bent_line())["lift"] is None
 
 

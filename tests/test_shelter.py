@@ -52,7 +52,7 @@ def along_x(net, speed=SPEED):
 
 
 def by_panel(net, values):
-    return [values[slice(*one.knots)] for one in net.panels]
+    return [values[one.knots] for one in net.panels]
 
 
 def behind(*panels, wake=FOUR_FIFTHS, twines=None):

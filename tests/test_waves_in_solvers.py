@@ -177,3 +177,10 @@ def test_energy_in_waves_adds_up():
         assert energy.inertia_work != 0.0
     assert parts[1] < 0.02
     assert parts[1] < parts[0] * 1.2
+
+
+def test_auto_begins_implicitly_in_waves():
+    """In water that never stands still the net never comes to rest, by which the plan for steady water counts."""
+    system = fyke.make_system(hung((6, 6)), waves=airy(0.1, 1.5, depth=3.0))
+    run = fyke.Auto(duration=1.0).start(system, system.at_rest())
+    assert run.story() == "implicit, in water that keeps changing"

@@ -240,6 +240,7 @@ def _outputs(parts: Parts) -> Iterator[Finding]:
 
 # Keys of [solve] that steppers have no use for.
 _WITHOUT = {"symplectic": ("rtol", "atol")}
+_EXPLICIT = ("verner", "symplectic")
 
 
 def _stepper(parts: Parts) -> Iterator[Finding]:
@@ -251,6 +252,11 @@ def _stepper(parts: Parts) -> Iterator[Finding]:
             found = f'{key} with stepper = "{solve.stepper}", which has no error control'
             cure = f'leave {key} out; max_step shortens its steps, stepper = "verner" keeps to {key}'
             yield ("solve", key), found, "rtol and atol with auto, implicit, newmark and verner only", cure
+    drag = parts.raw.get("drag")
+    if solve.stepper in _EXPLICIT and isinstance(drag, dict) and drag.get("kind") == "screens":
+        found = f'"{solve.stepper}" with screens, which explicit steps do not know'
+        allowed = '"auto", "implicit" or "newmark" with [drag] kind = "screens"'
+        yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
     if solve.max_step is not None and solve.max_step > solve.duration:
         allowed = f"at most the duration of {solve.duration:g} s"
         yield (

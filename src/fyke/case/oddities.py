@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..netting.lattice import flat_strain, hanging_ratios
+import numpy as np
+
+from ..netting.lattice import flat_strain, hanging_ratios, lattice
+from ..netting.panel import panel_axes
 from .check import LARGEST_STRAIN
 from .schema import Case
-from .water_check import current_oddities
+from .water_check import current_oddities, highest_of
 from .waves import wave_oddities
 
 LEAST_HANGING = 0.05
+AT_SURFACE = 1e-6  # m, above which a knot is above still water and not only by rounding
 
 
 def warnings(case: Case) -> tuple[str, ...]:
@@ -22,6 +26,8 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_unused(case),
         *_no_effect(case),
         *_waves(case),
+        *_sheltered_twice(case),
+        *_above_water(case),
         *current_oddities(case),
     )
 
@@ -85,6 +91,35 @@ def _no_effect(case: Case) -> Iterator[str]:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
+
+
+def _sheltered_twice(case: Case) -> Iterator[str]:
+    if case.drag.kind == "screens" and case.shelter.twine_law() is not None:
+        yield (
+            "The shelter between twines counts twice: the drag laws of screens were measured on whole panels and "
+            'hold it already; leave out [shelter] twines with kind = "screens".'
+        )
+
+
+def _above_water(case: Case) -> Iterator[str]:
+    for panel in case.gear:
+        netting = case.netting[panel.netting]
+        highest = highest_of(panel, netting)
+        if highest is None or highest <= AT_SURFACE:
+            continue
+        grid = lattice(netting.mesh, panel.meshes)
+        steps = (grid.knots / np.array(grid.intervals) - 0.5) * np.array(panel.size)
+        heights = panel.centre[2] + steps @ panel_axes(np.array(panel.normal))[:, 2]
+        what = f"panel '{panel.name}'" if panel.name else "the panel"
+        air = (
+            "though screens feel the current there, too"
+            if case.drag.kind == "screens"
+            else "and without drag"
+        )
+        yield (
+            f"{np.count_nonzero(heights > AT_SURFACE)} of {len(heights)} knots of {what} begin above the surface, up "
+            f"to z = {highest:.4g} m, with their weight in air {air}; below still water z is negative."
+        )
 
 
 def _waves(case: Case) -> Iterator[str]:

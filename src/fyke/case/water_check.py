@@ -83,10 +83,22 @@ def current_oddities(case: Case) -> Iterator[str]:
 
 def lowest_of(panel: PanelSpec, netting: NettingSpec) -> float | None:
     """Height z (m) of the lowest corner of a panel as it is hung, None where its size is not known."""
+    half = _half_height(panel, netting)
+    return None if half is None else panel.centre[2] - half
+
+
+def highest_of(panel: PanelSpec, netting: NettingSpec) -> float | None:
+    """Height z (m) of the highest corner of a panel as it is hung, None where its size is not known."""
+    half = _half_height(panel, netting)
+    return None if half is None else panel.centre[2] + half
+
+
+def _half_height(panel: PanelSpec, netting: NettingSpec) -> float | None:
+    """Half of the height (m) that a panel takes up along z, None where its size is not known."""
     if (panel.given_size is None) == (panel.hanging_ratio is None):
         return None
     axes = panel_axes(np.array(panel.normal))
-    return float(panel.centre[2] - 0.5 * np.abs(axes[:, 2]) @ np.array(panel.sized_for(netting)))
+    return float(0.5 * np.abs(axes[:, 2]) @ np.array(panel.sized_for(netting)))
 
 
 def _table(parts: Parts, name: str) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any
 
@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from ..case import Case, CaseError, load_case
 from ..netting.lattice import flat_strain
 from ..netting.measures import measure_net, measure_panel
-from ..netting.net import Net, Panel
-from ..results.ranges import bar_values, knot_values, laws_of, out_of_range
+from ..netting.net import Panel
+from ..results.ranges import bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
 from ..system.system import System
 from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
+from ..water.wakes import GivenWake
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -60,21 +61,24 @@ def judge(case: Case) -> dict[str, Any]:
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    drag: the laws by their words; out_of_range: at how many bars, knots or panels they leave their ranges in the
-    undisturbed current.
+    drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
+    ranges in the undisturbed current.
     """
     net = build_net(case)
     system = build_system(net, case)
-    measures, laws = measure_net(net), laws_of(case)
-    water = at_full_strength(system.current).velocity(net.positions, 0.0)
+    measures, viscosity = measure_net(net), system.water.kinematic_viscosity
+    steady = replace(
+        system,
+        current=at_full_strength(system.current),
+        waves=None,
+        coefficients=replace(system.coefficients, wake=None, twines=None),
+    )
+    water = steady.current.velocity(net.positions, 0.0)
     numbers = (
-        bar_values(net, net.positions, water, ConstantBar(), laws.viscosity)[REYNOLDS],
-        knot_values(net, water, laws.viscosity)[REYNOLDS],
+        bar_values(net, net.positions, water, ConstantBar(), viscosity)[REYNOLDS],
+        knot_values(net, water, viscosity)[REYNOLDS],
     )
-    start = [(0.0, net.positions, np.zeros_like(net.positions))]
-    outside = out_of_range(
-        net, start, laws, lambda *_: water, screens=lambda _, flow: _as_screens(net, flow, laws.viscosity)
-    )
+    outside = out_of_range(steady, [(0.0, net.positions, np.zeros_like(net.positions))])
     return {
         "title": case.title,
         "solve": case.solve.kind,
@@ -83,11 +87,8 @@ def judge(case: Case) -> dict[str, Any]:
         "current": list(case.current.at_surface),
         "current_words": case.current.described,
         "waves": case.waves.described if case.waves else None,
-        "drag": {
-            key: law.name
-            for key, law in (("bars", laws.bars), ("knots", laws.knots), ("screens", laws.panels))
-            if law is not None
-        },
+        "drag": _drag(system),
+        "shelter": _shelter(system),
         "panels": [_panel(case, system, panel, *numbers) for panel in net.panels],
         "warnings": [*case.warnings, *outside.warnings],
         "out_of_range": outside.counts,
@@ -95,18 +96,19 @@ def judge(case: Case) -> dict[str, Any]:
     }
 
 
-def _as_screens(net: Net, flow: Array, viscosity: float) -> tuple[Array, Array, Array]:
-    """Return solidity, angle (rad) between normal and flow, and Reynolds number of every flat panel as a whole."""
-    rows = []
-    for panel in net.panels:
-        velocity = flow[slice(*panel.knots)].mean(axis=0)
-        speed = float(np.linalg.norm(velocity))
-        through = abs(float(velocity @ np.cross(*panel.axes))) / speed if speed > 0.0 else 1.0
-        diameter = float(net.bar_diameter[panel.bars[0]])
-        solidity = measure_panel(net, panel).solidity
-        rows.append((solidity, np.arccos(min(through, 1.0)), speed * diameter / viscosity))
-    solid, angle, reynolds = np.array(rows).reshape(-1, 3).T
-    return solid, angle, reynolds
+def _drag(system: System) -> dict[str, str]:
+    """Return the words of the laws of drag that act, by what they act on."""
+    c = system.coefficients
+    if c.screens is not None:
+        return {"screens": c.screens.name}
+    return {"bars": c.bars.name, "knots": c.knots.name}
+
+
+def _shelter(system: System) -> dict[str, str]:
+    """Return the words of the laws of shelter that are asked for, a given factor as its number."""
+    c = system.coefficients
+    wake = f"{c.wake.left:g}" if isinstance(c.wake, GivenWake) else c.wake and c.wake.name
+    return {key: word for key, word in (("wake", wake), ("twines", c.twines and c.twines.name)) if word}
 
 
 def _span(values: Array) -> list[float]:
@@ -127,12 +129,12 @@ def _panel(case: Case, system: System, panel: Panel, across: Array, at_knots: Ar
         "meshes": list(panel.meshes),
         "size": list(panel.size),
         **asdict(measure_panel(net, panel)),
-        "fixed": int(np.count_nonzero(net.fixed[slice(*panel.knots)])),
+        "fixed": int(np.count_nonzero(net.fixed[np.unique(panel.knots)])),
         "strain": max(flat_strain(mesh, panel.meshes, panel.bar_length, panel.size)),
         "reynolds": speed * twine.diameter / case.water.kinematic_viscosity,
-        "reynolds_across": _span(across[slice(*panel.bars)]),
-        "reynolds_knots": _span(at_knots[slice(*panel.knots)])[1],
-        "damping_time": float(system.elements.damping_time[slice(*panel.bars)].max()),
+        "reynolds_across": _span(across[panel.bars]),
+        "reynolds_knots": _span(at_knots[panel.knots])[1],
+        "damping_time": float(system.elements.damping_time[panel.bars].max()),
         "damping_source": twine.damping_source,
     }
 
@@ -146,7 +148,8 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         *([("waves", findings["waves"])] if findings["waves"] else []),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
-        ("drag", ", ".join(f"{what}: {law}" for what, law in findings["drag"].items())),
+        ("drag", _words(findings["drag"])),
+        *([("shelter", _words(findings["shelter"]))] if findings["shelter"] else []),
         ("mass in air", quantity(findings["mass"], "kg")),
         ("weight in water", f"{quantity(findings['weight_in_water'], 'N')} ({sinks})"),
     ]
@@ -157,6 +160,10 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     print_warnings(console, findings["warnings"])
     if not findings["warnings"]:
         console.print("Nothing looks odd.")
+
+
+def _words(laws: dict[str, str]) -> str:
+    return ", ".join(f"{what}: {law}" for what, law in laws.items())
 
 
 def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:

@@ -13,8 +13,6 @@ from ..solve.result import Result
 from .folder import RESULT
 from .show import DONE, WRONG_INPUT, print_problems, print_warnings, stderr, stdout
 
-Vector = tuple[float, float, float]
-
 
 @dataclass(frozen=True)
 class Format:
@@ -33,7 +31,7 @@ class Format:
 def _write_gltf(result: Result, path: Path) -> Path:
     from ..report.gltf import write_gltf
 
-    return write_gltf(result, path, current=current_of(result))
+    return write_gltf(result, path)
 
 
 FORMATS = {
@@ -79,12 +77,6 @@ def opened(file: Path) -> tuple[Path, Result]:
     """Read a result, given as its file or the folder of its run; ResultError where that cannot be done."""
     source = file / RESULT if file.is_dir() else file
     return source, load(source)
-
-
-def current_of(result: Result) -> Vector | None:
-    """Return the undisturbed current (m/s) of the case behind a result, None where it is not known."""
-    case = case_of(result)
-    return None if case is None else case.current.at_surface
 
 
 def case_of(result: Result) -> Case | None:

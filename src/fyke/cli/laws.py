@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import textwrap
-from dataclasses import MISSING, fields
+from collections.abc import Mapping
+from dataclasses import MISSING, Field, fields
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
@@ -12,20 +13,39 @@ from rich.text import Text
 
 from ..case import CaseError, Problem
 from ..case.drag_table import read_drag_table
-from ..water.laws import LAWS, AngleLaw, BarLaw, Law
+from ..water.inertia import ADDED_MASS_LAWS, AddedMassLaw
+from ..water.laws import LAWS, AngleLaw, BarLaw, KnotLaw, Law
+from ..water.wakes import TWINES, WAKES, WakeLaw
 from .show import DONE, WRONG_INPUT, print_json, print_problems, stdout
 
 TITLES = {
     "bars": "Bars: drag across and along a bar, by the Reynolds number of the twine",
     "knots": "Knots: drag of a sphere, by the Reynolds number of the knot",
     "panels": "Panels: drag and lift of a plane panel as a whole, by angle and solidity",
+    "wakes": "Wakes: the part of the current that is left behind netting",
+    "twines": "Twines: the part of the current that is left between the twines of a panel",
+    "added_mass": "Added mass: of a bar across itself, over the mass of the water it displaces",
 }
 NO_OTHER_NETTING = "bi"  # a fit to one netting says nothing of another, so it is drawn only when asked for
+KINDS: dict[str, Mapping[str, type[Law] | type[AddedMassLaw]]] = {
+    **LAWS,
+    "wakes": WAKES,
+    "twines": TWINES,
+    "added_mass": ADDED_MASS_LAWS,
+}
+HOW_TO_WRITE = (
+    "d twine or knot diameter, l bar length, Re = d V / nu, Sn solidity, V speed",
+    "angles of a bar to the flow, 90 deg across; of a panel's normal, 0 face on",
+    'in a case file, { law = "NAME", ... } where a law has parameters:',
+    '[drag] bars = "NAME", knots = "NAME"; kind = "screens", screens = "NAME"',
+    '[shelter] wake = "NAME", or the factor as a number; twines = "NAME"',
+    '[added_mass] bars = "NAME", or C_a as a number',
+)
 
 
 def list_laws(*, json: bool) -> int:
     """Print every law by kind and return the exit code."""
-    found = {kind: [_described(law) for law in laws.values()] for kind, laws in LAWS.items()}
+    found = {kind: [_described(law) for law in laws.values()] for kind, laws in KINDS.items()}
     if json:
         print_json(found)
         return DONE
@@ -39,35 +59,53 @@ def list_laws(*, json: bool) -> int:
                 for line in textwrap.wrap(words, console.width - 6) if words not in {"read -"} else ():
                     console.print(Text(" " * 6 + line, style="dim" if words is not where else ""))
         console.print()
-    console.print(Text("d twine or knot diameter, l bar length, Re = d V / nu, Sn solidity, V speed"))
-    console.print(Text("angles of a bar to the flow, 90 deg across; of a panel's normal, 0 face on"))
-    console.print(Text('in a case file: [drag] bars = "NAME", knots = "NAME"; kind = "screens",'))
-    console.print(Text('screens = "NAME" for panels; with parameters { law = "NAME", ... }'))
+    for line in HOW_TO_WRITE:
+        console.print(Text(line))
     return DONE
 
 
-def _described(law: type[Law]) -> dict[str, Any]:
+def _described(law: type[Law] | type[AddedMassLaw]) -> dict[str, Any]:
     # Every law is a dataclass, which its type does not say.
-    asked = [one for one in fields(law) if one.default is MISSING]  # type: ignore[arg-type]
-    ranges = ["that of its points"] if asked else [str(one) for one in law().ranges]
+    known = fields(law)  # type: ignore[arg-type]
+    asked = [one for one in known if _asked(one)]
+    ranges = ["that of its points"] if asked else _ranges(law())
     return {
         "name": law.name,
         "title": law.title,
         "range": ranges,
-        "area": law.area,
+        "area": law.area if issubclass(law, Law) else "pi d^2 / 4 x l0",
         "angle": _angle(law),
-        "parameters": {one.name: None if one in asked else one.default for one in fields(law)},  # type: ignore[arg-type] # so
+        "parameters": {
+            one.name: None if one in asked else _written(getattr(law(), one.name)) for one in known
+        },
         "source": law.source,
         "read": law.read,
     }
 
 
-def _angle(law: type[Law]) -> str:
+def _asked(parameter: Field[Any]) -> bool:
+    return parameter.default is MISSING and parameter.default_factory is MISSING
+
+
+def _ranges(law: Law | AddedMassLaw) -> list[str]:
+    return [str(one) for one in law.ranges] if isinstance(law, Law) else []
+
+
+def _written(value: Any) -> Any:
+    """Return a parameter as JSON can hold it: a law by its name."""
+    return value.name if isinstance(value, Law) else value
+
+
+def _angle(law: type[Law] | type[AddedMassLaw]) -> str:
     if issubclass(law, AngleLaw):
         return "between bar and flow, 90 deg across"
     if issubclass(law, BarLaw):
         return "by the speeds across and along the bar"
-    return "between normal and flow, 0 deg face on" if law in LAWS["panels"].values() else "none"
+    if issubclass(law, AddedMassLaw):
+        return "none" if law.constant else "between bar and flow, 90 deg across"
+    if issubclass(law, WakeLaw) and not law.lean:
+        return "none"
+    return "none" if issubclass(law, KnotLaw) else "between normal and flow, 0 deg face on"
 
 
 def plot_laws(names: list[str], output: Path, *, overwrite: bool) -> int:
@@ -106,7 +144,7 @@ def _all() -> list[str]:
 
 def _ready(law: type[Law]) -> bool:
     """Whether a law can be made without parameters, as all but the tables can."""
-    return all(one.default is not MISSING for one in fields(law))  # type: ignore[arg-type] # a dataclass
+    return not any(map(_asked, fields(law)))  # type: ignore[arg-type] # a dataclass
 
 
 def _of_name(name: str, problems: list[Problem]) -> list[Law]:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from ..case import Problem
 from ..results import ResultError
-from .export import current_of, opened, taken, unwritten, whole
+from .export import opened, taken, unwritten, whole
 from .progress import progress_bar
 from .show import DONE, WRONG_INPUT, print_problems, print_warnings, stderr, stdout
 
@@ -53,7 +53,6 @@ def film_result(file: Path, film: Film) -> int:
                 result,
                 target,
                 reel,
-                current=current_of(result),
                 on_progress=lambda share: report(share, f"{len(moments)} pictures"),
             )
     except (ResultError, MovieError, QuantityError) as error:

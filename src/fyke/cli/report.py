@@ -6,7 +6,18 @@ from pathlib import Path
 from typing import Any
 
 from ..case import Case
-from ..results import Comparison, MeasurementError, ResultError, audit, compare, summary
+from ..results import (
+    Comparison,
+    MeasurementError,
+    ResultError,
+    audit,
+    compare,
+    flow_direction,
+    moments,
+    out_of_range,
+    summary,
+    water_figures,
+)
 from ..solve.result import Result
 from ..system.build import build_net, build_system
 from ..system.system import System
@@ -86,9 +97,12 @@ def _measured(
 def _figures(result: Result, case: Case | None, system: System | None) -> dict[str, Any]:
     figures = summary(
         result,
-        current_direction=None if case is None else case.current.at_surface,
+        flow_direction=None if system is None else flow_direction(system),
         audit=None if system is None else audit(system, result),
     )
-    own = () if case is None else case.warnings
-    figures["warnings"] = list(dict.fromkeys([*own, *result.outcome.warnings]))
+    warnings = [*(() if case is None else case.warnings), *result.outcome.warnings]
+    if system is not None:
+        figures |= water_figures(system, result)
+        warnings += out_of_range(system, moments(result)).warnings
+    figures["warnings"] = list(dict.fromkeys(warnings))
     return figures

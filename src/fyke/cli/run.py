@@ -18,17 +18,25 @@ from ..forces.team import threads_allowed
 from ..results import (
     Comparison,
     MeasurementError,
+    Probes,
     Recorder,
     audit,
     compare,
+    flow_direction,
     load,
+    mean_current,
+    moments,
+    out_of_range,
+    probes_of,
     save,
     save_checkpoint,
     summary,
+    water_figures,
+    write_probes,
     write_summary,
     write_tables,
 )
-from ..results.ranges import laws_of, moments, out_of_range
+from ..results.water import water_words
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
 from ..solve.outcome import Outcome
@@ -36,7 +44,7 @@ from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.system import System
-from .folder import BARS, CHECKPOINT, KNOTS, RESULT, SUMMARY, claim, make_sure_of_room, stopped
+from .folder import BARS, CHECKPOINT, KNOTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
 from .progress import progress_bar
 from .show import (
     DONE,
@@ -137,11 +145,14 @@ def _run(
     with timed("accounts"):
         comparison = compare(result, case.positions_file) if case.positions_file else None
         figures = _figures_of(case, system, result, comparison)
+        probes = probes_of(system, result, case.output.probes)
     with timed("writing"):
         write_tables(result, folder)
         write_summary(figures, folder)
+        if probes is not None:
+            write_probes(probes, folder)
     with timed("figures"):
-        pictures = _draw(case, result, folder, comparison) if wishes.figures else []
+        pictures = _draw(system, result, folder, comparison, probes) if wishes.figures else []
     figures["time_by_part"] = clock.seconds
     write_summary(figures, folder)
     if wishes.json:
@@ -211,11 +222,12 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         result,
         title=case.title,
         case_sha256=case.sha256,
-        current_direction=case.current.at_surface,
+        flow_direction=flow_direction(system),
         audit=audit(system, result),
     )
+    figures |= water_figures(system, result)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
-    outside = out_of_range(system.net, moments(result), laws_of(case), system.current.velocity)
+    outside = out_of_range(system, moments(result))
     figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
     figures["out_of_range"] = outside.counts
     if comparison is not None:
@@ -226,17 +238,27 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
     return figures
 
 
-def _draw(case: Case, result: Result, folder: Path, comparison: Comparison | None) -> list[Path]:
+def _draw(
+    system: System, result: Result, folder: Path, comparison: Comparison | None, probes: Probes | None
+) -> list[Path]:
     from ..report.figures import draw_all
 
-    return draw_all(result, folder, comparison=comparison, current=case.current.at_surface)
+    return draw_all(
+        result,
+        folder,
+        comparison=comparison,
+        current=mean_current(system),
+        waves=None if system.waves is None else system.waves.direction,
+        probes=probes,
+    )
 
 
 def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Path) -> None:
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", f"{KNOTS}, {BARS}")]
+    tables = ", ".join([KNOTS, BARS, *([WAVES] if (folder / WAVES).is_file() else [])])
+    files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
         kinds = dict.fromkeys(picture.suffix[1:] for picture in pictures)
@@ -257,7 +279,8 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("weight in water", quantity(figures["weight_in_water"], "N")),
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
-        *_account_rows(figures["audit"]),
+        *water_words(figures),
+        *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
         ("time of the solve", quantity(figures["wall_time"], "s", 3)),
@@ -284,7 +307,8 @@ def _parts(seconds: dict[str, float]) -> str:
     return ", ".join(f"{part} {quantity(one, 's', 2)}" for part, one in seconds.items() if one >= LEAST_SHOWN)
 
 
-def _account_rows(accounts: dict[str, Any]) -> list[tuple[str, str]]:
+def _account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
+    accounts = figures["audit"]
     energy, knot = accounts["energy"], accounts["unbalanced_knot"]
     where = "" if knot is None else f", at knot {knot}"
     left = f"{math.hypot(*accounts['load_less_reaction']):.2g} of {quantity(accounts['load_size'], 'N')}"
@@ -294,10 +318,12 @@ def _account_rows(accounts: dict[str, Any]) -> list[tuple[str, str]]:
     ]
     if energy is not None:
         taken = {
-            "current": energy["current_work"],
+            "current and waves" if "waves" in figures else "current": energy["current_work"],
             "weight and loads": -energy["potential"],
             "turning added mass": energy["added_mass_work"],
         }
+        if energy["inertia_work"]:
+            taken["inertia of the water"] = energy["inertia_work"]
         given = {
             "drag": energy["drag_dissipation"],
             "twine": energy["twine_dissipation"],

@@ -39,13 +39,15 @@ def _immersed(depth, radius):
 
 @njit(**OPTIONS)
 def wet_parts(z, elevation, el, bar_radius, knot_radius, bars, knots):
-    """Part under water of every bar into bars (m,) and of every knot into knots (n,).
+    """Part under water of every bar into bars (m,) and of every knot, or what hangs there, into knots (n,), spheres.
 
     z, elevation: (n,) m, heights of the knots and of the surface above them; a bar is the mean along its length.
     """
     for i in range(z.shape[0]):
         depth, r = elevation[i] - z[i], max(knot_radius[i], TINY_LENGTH)
-        knots[i] = min(max(0.5 * (depth + r) / r, 0.0), 1.0)
+        part = min(max(0.5 * (depth + r) / r, 0.0), 1.0)
+        # The volume of a spherical cap over that of the sphere.
+        knots[i] = part * part * (3.0 - 2.0 * part)
     for e in range(bar_radius.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
         low, high = elevation[a] - z[a], elevation[b] - z[b]
@@ -104,6 +106,8 @@ class Surroundings:
         self.system = system
         c, net = system.coefficients, system.net
         self._radius = 0.5 * net.bar_diameter, 0.5 * net.knot_diameter
+        for bodies in net.bodies:
+            np.maximum.at(self._radius[1], bodies.knots, 0.5 * bodies.diameter)
         self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
         self._by_angle = not c.bar_mass.constant
         self.faces = system.faces

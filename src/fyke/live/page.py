@@ -75,6 +75,8 @@ class Page:
         self._colour = gui.add_dropdown("Colour by", self.scene.choices, initial_value=self.scene.choices[0])
         self._colour.on_update(lambda _: self._wish("colour", partial(self.scene.choose, self._colour.value)))
         self._scale = gui.add_html("")
+        if study.waves_note:
+            gui.add_markdown(study.waves_note)
         self._said = {"": gui.add_markdown("", visible=False)}
         groups: dict[str, list[Knob]] = {}
         for knob in study.knobs:

@@ -65,7 +65,7 @@ class Scene:
 
     @property
     def _offered(self) -> tuple[BarQuantity, ...]:
-        return quantities(self.study.current)
+        return quantities(self.study.result)
 
     @property
     def choices(self) -> list[str]:
@@ -91,7 +91,7 @@ class Scene:
         """Send the present shape."""
         result = self.study.result
         position = result.position[-1].astype(np.float32)
-        values = self.quantity.values(result, 0, self.study.current)
+        values = self.quantity.values(result, 0)
         self.top = float(values.max(initial=0.0)) or 1.0
         slack = result.tension[-1] <= 0.0
         colours = COLOURS[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]

@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from ..case import Case, CaseError, parse_case
 from ..case.schema import DynamicSolve
 from ..forces.evaluate import evaluate
+from ..forces.surroundings import Surroundings
+from ..results import flow_direction
 from ..results.derive import drag_and_lift
 from ..solve.implicit import Implicit
 from ..solve.linear import Factorizer, factorizer
@@ -76,15 +78,19 @@ class Study:
         self.result: Result = self._solved(self.system, None)
 
     @property
-    def current(self) -> Array:
-        """Velocity of the undisturbed water, (3,) m/s."""
-        return np.array(self.case.current.at_surface)
+    def waves_note(self) -> str:
+        """What a reader must know of the waves of the case, "" without any."""
+        if self.case.waves is None:
+            return ""
+        if self._built.waves is None:
+            return "The waves of this case play no part: it is a static one."
+        return f"Waves ({self.case.waves.described}) act in motion only: the equilibrium is without them."
 
     @property
     def numbers(self) -> Numbers:
         """Numbers of the present shape."""
         last, net = self.result.frame(), self.result.net
-        drag, lift = drag_and_lift(last.hydrodynamic_force, self.current)
+        drag, lift = drag_and_lift(last.hydrodynamic_force, flow_direction(self._built))
         return Numbers(
             drag,
             lift,
@@ -179,7 +185,7 @@ class Study:
         """Solver for the pattern of a system, the last one while the same knots are free."""
         free = system.elements.free.tobytes()
         if self._linear is None or self._linear[0] != free:
-            self._linear = free, factorizer(Pattern.of(system.elements))
+            self._linear = free, factorizer(Pattern.of(system.elements, Surroundings(system).groups))
         return self._linear[1]
 
     def play(self) -> None:

@@ -14,8 +14,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Lattice, MeshKind, lattice
-from .measures import measure_panel
+from .lattice import Lattice, MeshKind, hanging_ratios
+from .measures import mesh_area, solidity
 from .net import Net, Panel
 
 Array = NDArray[np.float64]
@@ -39,8 +39,8 @@ class Faces:
 
     corners: (p, 4) knots in order round the face, a triangle repeating its last; share: (p, 4) of the face's force
     that each corner bears, 0 where repeated; area: (p,) m2, outline, hung on the frame and not yet stretched;
-    solidity: (p,) as hung; diameter: (p,) m, of the twine; panel: (p,) index into net.panels; bars: (p, 4) bars from
-    each corner to the next, -1 where there is none.
+    solidity: (p,) as hung; diameter: (p,) m, of the twine; panel: (p,) index into net.panels; bars: (p, 4 s) bars from
+    each corner to the next, with their s segments, -1 where there is none.
     """
 
     corners: Indices
@@ -88,28 +88,44 @@ def faces_of(net: Net) -> Faces:
 
 
 def _faces_of_panel(net: Net, panel: Panel, which: int) -> Faces:
-    mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
-    grid = lattice(mesh, panel.meshes)
-    if len(grid.knots) != panel.knots[1] - panel.knots[0]:
+    grid = panel.lattice
+    if len(grid.knots) != len(panel.knots):
         raise ValueError(
-            f"panel '{panel.name}' has {panel.knots[1] - panel.knots[0]} knots, but {panel.meshes[0]} x "
-            f"{panel.meshes[1]} {mesh} meshes have {len(grid.knots)}: give it the range of its own knots"
+            f"panel '{panel.name}' has {len(panel.knots)} knots, but {panel.meshes[0]} x {panel.meshes[1]} "
+            f"{panel.mesh} meshes have {len(grid.knots)}: give it the knots of its own meshes"
         )
-    corners = _square_corners(grid) if mesh == "square" else _diamond_corners(grid)
-    triangle = corners[:, 3] == corners[:, 2]
-    cell = float(np.prod(np.array(panel.size) / grid.intervals)) * (1.0 if mesh == "square" else 2.0)
-    twine = next(t for t in net.twines if t.name == panel.twine)
+    places = _square_corners(grid) if panel.mesh == "square" else _diamond_corners(grid)
+    corners = panel.knots[places]
+    triangle = places[:, 3] == places[:, 2]
+    a, b, c, d = net.positions[corners].transpose(1, 0, 2)
+    area = np.linalg.norm(0.5 * np.cross(c - a, d - b), axis=1)
     third = np.array([1.0, 1.0, 1.0, 0.0]) / 3.0
     count = len(corners)
+    twine = next(t for t in net.twines if t.name == panel.twine)
     return Faces(
-        corners=corners + panel.knots[0],
+        corners=corners,
         share=np.where(triangle[:, None], third, np.full(4, 0.25)),
-        area=np.where(triangle, 0.5, 1.0) * cell,
-        solidity=np.full(count, measure_panel(net, panel).solidity),
+        area=area,
+        solidity=_solidity(panel, twine.diameter, area * np.where(triangle, 2.0, 1.0)),
         diameter=np.full(count, twine.diameter),
         panel=np.full(count, which, dtype=np.int64),
-        bars=_sides(net, panel, grid, corners),
+        bars=_sides(panel, grid, places),
     )
+
+
+def _solidity(panel: Panel, diameter: float, area: Array) -> Array:
+    """Solidity of meshes of these areas (p,) m2 hung like the panel, whose ratios E1, E2 differ with its width."""
+    mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
+    e1, e2 = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
+    whole = mesh_area(mesh, panel.bar_length, (e1, e2))
+    out = np.empty(len(area))
+    # Meshes of one row are alike: few different areas.
+    for one in np.unique(np.round(area / whole, 9)):
+        alike = np.round(area / whole, 9) == one
+        out[alike] = (
+            solidity(mesh, panel.bar_length, (e1 * one, e2), diameter, panel.knot_diameter) if one else 1.0
+        )
+    return out
 
 
 def _places(grid: Lattice) -> Indices:
@@ -147,21 +163,22 @@ def _diamond_corners(grid: Lattice) -> Indices:
     return corners
 
 
-def _sides(net: Net, panel: Panel, grid: Lattice, corners: Indices) -> Indices:
-    """Bars (p, 4) from each corner to the next; -1 where no bar joins them.
+def _sides(panel: Panel, grid: Lattice, corners: Indices) -> Indices:
+    """Bars (p, 4 s) from each corner to the next, all their segments; -1 where no bar joins them.
 
     From any knot at most two bars go to knots of higher index: one rises, or goes along the width, the other does not.
     """
     j = grid.knots[:, 1]
-    low, high = np.sort(net.bars[slice(*panel.bars)] - panel.knots[0], axis=1).T
+    low, high = np.sort(grid.bars, axis=1).T
     bar_from, bar_to = np.full((2, 2, len(j)), -1, dtype=np.int64)
     way = _way(panel, j, low, high)
-    bar_from[way, low] = np.arange(*panel.bars)
+    bar_from[way, low] = np.arange(len(grid.bars))
     bar_to[way, low] = high
     after = np.roll(corners, -1, axis=1)
     low, high = np.minimum(corners, after), np.maximum(corners, after)
     way = _way(panel, j, low, high)
-    return np.where(bar_to[way, low] == high, bar_from[way, low], -1)
+    there = (bar_to[way, low] == high)[:, :, None]
+    return np.where(there, panel.bars[bar_from[way, low]], -1).reshape(len(corners), -1)
 
 
 def _way(panel: Panel, j: Indices, low: Indices, high: Indices) -> Indices:

@@ -29,10 +29,13 @@ class Lattice:
     bars: NDArray[np.int64]
     intervals: tuple[int, int]
 
-    def held(self, where: Edge) -> NDArray[np.bool_]:
-        """Knots (n,) that are held: on all four edges, on the top row, on the four corners, or none."""
+    def held(self, where: Edge, *, closed: bool = False) -> NDArray[np.bool_]:
+        """Knots (n,) that are held: on all edges, on the top row, on the four corners, or none.
+
+        closed: the width closes round, and there are no edges and corners at its ends.
+        """
         i, j = self.knots.T
-        at_side = (i == 0) | (i == self.intervals[0])
+        at_side = ((i == 0) | (i == self.intervals[0])) & (not closed)
         at_end = (j == 0) | (j == self.intervals[1])
         held: dict[Edge, NDArray[np.bool_]] = {
             "edges": at_side | at_end,

@@ -92,14 +92,14 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     twine = next(t for t in net.twines if t.name == panel.twine)
     mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
     ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
-    density = float(np.mean(net.knot_density[slice(*panel.knots)]))
+    density = float(np.mean(net.knot_density[panel.knots]))
     cell_mass = 2.0 * panel.bar_length * twine.density * twine.area
     cell_mass += density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
         outline_area=panel.size[0] * panel.size[1],
         solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
-        twine_area=float(twine.diameter * np.sum(net.rest_length[slice(*panel.bars)])),
+        twine_area=float(twine.diameter * np.sum(net.rest_length[np.unique(panel.bars)])),
         mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),
         mesh_length=2.0 * panel.bar_length,
         rtex=twine.density * twine.area * KILOGRAM_PER_METRE_IN_TEX,
@@ -107,7 +107,7 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
 
 
 def measure_net(net: Net) -> NetMeasures:
-    """Return the figures of a whole net: bars are cylinders of their unloaded length, knots spheres."""
+    """Return the figures of a whole net: bars are cylinders as long as unloaded, knots spheres."""
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
     bar_volume = area * net.rest_length
@@ -116,6 +116,6 @@ def measure_net(net: Net) -> NetMeasures:
         knots=net.knot_count,
         bars=net.bar_count,
         fixed=int(np.count_nonzero(net.fixed)),
-        mass=float(density @ bar_volume + net.knot_density @ knot_volume),
-        volume=float(np.sum(bar_volume) + np.sum(knot_volume)),
+        mass=float(density @ bar_volume + net.knot_density @ knot_volume + net.at_knots("mass").sum()),
+        volume=float(np.sum(bar_volume) + np.sum(knot_volume) + net.at_knots("volume").sum()),
     )

@@ -3,35 +3,82 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .lattice import Lattice, lattice
 from .twine import Twine
 
 Array = NDArray[np.float64]
+Side = Literal["top", "bottom", "left", "right"]
 
 
 @dataclass(frozen=True)
 class Panel:
-    """Where one panel of netting lies within a Net, for plan views and derived figures.
+    """Where one piece of netting lies within a Net, for plan views and derived figures.
 
-    knots, bars: (first, behind-last) index ranges; axes: (2, 3) unit vectors of width and height; centre: (3,) m;
-    mesh: "diamond" | "square"; meshes: along width and height; size: width and height of the frame (m);
-    bar_length: unloaded, knot centre to knot centre (m); knot_diameter: m, 0 when knotless; twine: its name.
+    shape: "panel" for a flat one, "cylinder", "cone" ...; mesh: "diamond" | "square"; meshes: along width and height;
+    size: width and height laid flat (m); bar_length: unloaded, knot centre to knot centre (m); knot_diameter: m, 0 when
+    knotless; twine: its name; closed: whether the width closes round. Of netting.lattice's knots and bars: knots: (k,)
+    knot of the net at each; bars: (b, s) bars of the net, the s segments of each.
     """
 
     name: str
+    shape: str
     mesh: str
     meshes: tuple[int, int]
     size: tuple[float, float]
     bar_length: float
     knot_diameter: float
     twine: str
-    centre: Array
-    axes: Array
-    knots: tuple[int, int]
-    bars: tuple[int, int]
+    closed: bool
+    knots: NDArray[np.int64]
+    bars: NDArray[np.int64]
+
+    @property
+    def lattice(self) -> Lattice:
+        """The lattice of the meshes."""
+        return lattice("square" if self.mesh == "square" else "diamond", self.meshes)
+
+    @property
+    def flat(self) -> Array:
+        """Where the lattice knots lie on the netting laid flat, about its middle, (k, 2) m."""
+        grid = self.lattice
+        return np.asarray((grid.knots / np.array(grid.intervals) - 0.5) * np.array(self.size))
+
+    def edge(self, which: Side) -> NDArray[np.int64]:
+        """Knots of the net along an edge, in order from left to right or from below."""
+        grid = self.lattice
+        along, end = {"bottom": (0, 0), "top": (0, 1), "left": (1, 0), "right": (1, 1)}[which]
+        there = np.flatnonzero(grid.knots[:, 1 - along] == end * grid.intervals[1 - along])
+        return self.knots[there[np.argsort(grid.knots[there, along], kind="stable")]]
+
+
+@dataclass(frozen=True)
+class Rope:
+    """A rope: its knots (k,) in order and its bars (k - 1,)."""
+
+    name: str
+    knots: NDArray[np.int64]
+    bars: NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Bodies:
+    """Floats or sinkers, all alike, one at each of some knots (k,).
+
+    kind: "float" or "sinker"; each: mass kg, volume m3, drag_area m2 (C_D times area), diameter m.
+    """
+
+    name: str
+    kind: str
+    knots: NDArray[np.int64]
+    mass: float
+    volume: float
+    drag_area: float
+    diameter: float
 
 
 @dataclass(frozen=True)
@@ -41,7 +88,8 @@ class Net:
     positions: (n, 3) m, before anything acts; labels: n texts, row and column "i-j" on a panel; fixed: (n,) bool;
     bars: (m, 2) knot indices; rest_length: (m,) m, unloaded; twines: the twines in use; twine_of_bar: (m,) index
     into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot
-    on top of weight, buoyancy and water; panels: the panels of netting in it, may be empty.
+    on top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
+    sinkers in it, each may be empty.
     """
 
     positions: Array
@@ -55,6 +103,8 @@ class Net:
     knot_density: Array
     load: Array
     panels: tuple[Panel, ...] = field(default=())
+    ropes: tuple[Rope, ...] = field(default=())
+    bodies: tuple[Bodies, ...] = field(default=())
 
     @property
     def knot_count(self) -> int:
@@ -70,6 +120,13 @@ class Net:
     def bar_diameter(self) -> Array:
         """Twine diameter of every bar, (m,) m."""
         return np.array([t.diameter for t in self.twines])[self.twine_of_bar]
+
+    def at_knots(self, what: Literal["mass", "volume", "drag_area"]) -> Array:
+        """Return the mass (kg), volume (m3) or drag area (m2) of the bodies at every knot, (n,)."""
+        out = np.zeros(self.knot_count)
+        for bodies in self.bodies:
+            np.add.at(out, bodies.knots, getattr(bodies, what))
+        return out
 
     def bar_label(self, bar: int) -> str:
         """Return the two knot labels of a bar, "3-4 to 4-5"."""

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Edge, MeshKind, lattice
-from .net import Net, Panel
+from .lattice import Edge, MeshKind
+from .net import Net
+from .sheet import Netting, sheet
 from .twine import Twine
 
 Array = NDArray[np.float64]
@@ -34,6 +35,7 @@ def panel(
     size: tuple[float, float],
     knot_diameter: float = 0.0,
     knot_density: float | None = None,
+    segments: int = 1,
     centre: tuple[float, float, float] = (0.0, 0.0, 0.0),
     normal: tuple[float, float, float] = (1.0, 0.0, 0.0),
     fixed: Edge = "edges",
@@ -42,38 +44,16 @@ def panel(
     """Lay a flat panel with evenly spaced knots on a frame.
 
     meshes and size: along width and height (size in m); bar_length: m, knot centre to knot centre, unloaded;
-    knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out. Knots are labelled "i-j", with
-    "name:" before it when a name is given.
+    knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out; segments: straight pieces of a
+    bar. Knots are labelled "i-j", with "name:" before it when a name is given.
     """
-    grid = lattice(mesh, meshes)
-    axes = panel_axes(np.array(normal))
-    spacing = np.array(size) / grid.intervals
-    plan = (grid.knots - np.array(grid.intervals) / 2.0) * spacing
-    prefix = f"{name}:" if name else ""
-    n, m = len(grid.knots), len(grid.bars)
-    where = Panel(
-        name=name,
-        mesh=mesh,
-        meshes=meshes,
+    axes, where = panel_axes(np.array(normal)), np.array(centre, dtype=float)
+    return sheet(
+        Netting(twine, mesh, bar_length, knot_diameter, knot_density, segments),
+        meshes,
+        lambda parts: (parts - 0.5) * np.array(size) @ axes + where,
+        shape="panel",
         size=size,
-        bar_length=bar_length,
-        knot_diameter=knot_diameter,
-        twine=twine.name,
-        centre=np.array(centre, dtype=float),
-        axes=axes,
-        knots=(0, n),
-        bars=(0, m),
-    )
-    return Net(
-        positions=plan @ axes + np.array(centre, dtype=float),
-        labels=tuple(f"{prefix}{i}-{j}" for i, j in grid.knots),
-        fixed=grid.held(fixed),
-        bars=grid.bars,
-        rest_length=np.full(m, float(bar_length)),
-        twines=(twine,),
-        twine_of_bar=np.zeros(m, dtype=np.int64),
-        knot_diameter=np.full(n, float(knot_diameter)),
-        knot_density=np.full(n, twine.density if knot_density is None else float(knot_density)),
-        load=np.zeros((n, 3)),
-        panels=(where,),
+        fixed=fixed,
+        name=name,
     )

@@ -20,8 +20,8 @@ def together(parts: Sequence[Net]) -> Net:
     panels = tuple(
         replace(
             panel,
-            knots=(panel.knots[0] + int(k), panel.knots[1] + int(k)),
-            bars=(panel.bars[0] + int(b), panel.bars[1] + int(b)),
+            knots=panel.knots + k,
+            bars=panel.bars + b,
         )
         for p, k, b in zip(parts, knots, bars, strict=False)
         for panel in p.panels
@@ -39,4 +39,12 @@ def together(parts: Sequence[Net]) -> Net:
         knot_density=np.concatenate([p.knot_density for p in parts]),
         load=np.concatenate([p.load for p in parts]),
         panels=panels,
+        ropes=tuple(
+            replace(rope, knots=rope.knots + k, bars=rope.bars + b)
+            for p, k, b in zip(parts, knots, bars, strict=False)
+            for rope in p.ropes
+        ),
+        bodies=tuple(
+            replace(one, knots=one.knots + k) for p, k in zip(parts, knots, strict=False) for one in p.bodies
+        ),
     )

@@ -24,28 +24,25 @@ class QuantityError(ValueError):
 
 @dataclass(frozen=True)
 class Colouring:
-    """A quantity and the value that has the darkest colour, from 0; current: (3,) m/s, None where not known."""
+    """A quantity and the value that has the darkest colour, from 0."""
 
     quantity: BarQuantity
     largest: float
-    current: Array | None
 
     @classmethod
-    def of(cls, result: Result, key: str, current: ArrayLike | None) -> Colouring:
+    def of(cls, result: Result, key: str) -> Colouring:
         """Make the colouring of all frames of a result; QuantityError for a key that has no values."""
-        there = [one.key for one in quantities(current)]
+        there = [one.key for one in quantities(result)]
         if key not in there:
-            why = "it needs the current of the case" if key in QUANTITIES else "there is no such quantity"
+            why = "no water passes them" if key in QUANTITIES else "there is no such quantity"
             raise QuantityError(f"bars cannot be coloured by {key!r}, {why}; choose {', '.join(there)}")
-        known = None if current is None else np.asarray(current, dtype=float)
-        quantity = QUANTITIES[key]
-        frames = range(len(result.time))
-        largest = max(float(np.max(quantity.values(result, k, known), initial=0.0)) for k in frames)
-        return cls(quantity, largest if largest > 0.0 else 1.0, known)
+        quantity, frames = QUANTITIES[key], range(len(result.time))
+        largest = max(float(np.max(quantity.values(result, k), initial=0.0)) for k in frames)
+        return cls(quantity, largest if largest > 0.0 else 1.0)
 
     def colours(self, result: Result, index: int) -> Array:
         """Return the colour of every bar in a frame, (m, 3) of sRGB between 0 and 1."""
-        share = np.clip(self.quantity.values(result, index, self.current) / self.largest, 0.0, 1.0)
+        share = np.clip(self.quantity.values(result, index) / self.largest, 0.0, 1.0)
         colours = PALETTE[np.rint(share * (len(PALETTE) - 1)).astype(int)]
         colours[result.tension[index] <= 0.0] = GREY
         return np.asarray(colours)

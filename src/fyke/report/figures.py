@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
@@ -47,15 +48,17 @@ def draw_all(
     *,
     comparison: Comparison | None = None,
     current: ArrayLike | None = None,
+    waves: ArrayLike | None = None,
     probes: Probes | None = None,
 ) -> list[Path]:
     """Draw every figure that applies to a result; write each as PNG and SVG into an existing folder.
 
     comparison: adds the overlay of measured positions; current: (3,) m/s, undisturbed, for the arrow of the initial
-    position and the direction of drag; probes: adds the waves. A result of more than one frame has histories. Return
-    the files written.
+    position and the direction of drag; waves: (3,) direction in which they go, for an arrow of their own, and for drag
+    where there is no current; probes: adds the waves. A result of more than one frame has histories. Return the files
+    written.
     """
-    figures = figures_of(result, comparison=comparison, current=current, probes=probes)
+    figures = figures_of(result, comparison=comparison, current=current, waves=waves, probes=probes)
     return [file for name, figure in figures.items() for file in write_figure(figure, Path(folder) / name)]
 
 
@@ -64,17 +67,19 @@ def figures_of(
     *,
     comparison: Comparison | None = None,
     current: ArrayLike | None = None,
+    waves: ArrayLike | None = None,
     probes: Probes | None = None,
 ) -> dict[str, Figure]:
     """Draw every figure that applies to a result, by name; arguments are those of `draw_all`."""
     figures = {
-        "initial_position": initial_position(result, current=current),
+        "initial_position": initial_position(result, current=current, waves=waves),
         "equilibrium_shape": equilibrium_shape(result),
         "tension_plan": tension_plan(result),
         "tension_histogram": tension_histogram(result),
     }
     if len(result.time) > 1:
-        figures["histories"] = histories(result, current=current)
+        flow = waves if current is None or not np.any(current) else current
+        figures["histories"] = histories(result, current=flow)
     if comparison is not None:
         figures["comparison"] = shape_comparison(result, comparison)
     if probes is not None:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.colors import to_rgb
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..results.encoding import case_title
 from ..results.whole import replacing
@@ -36,17 +36,15 @@ POINTS_BUFFER, CORNERS_BUFFER = 34962, 34963
 JSON_CHUNK, BINARY_CHUNK = 0x4E4F534A, 0x004E4942
 
 
-def write_gltf(
-    result: Result, path: str | Path, *, colour: str = "tension", current: ArrayLike | None = None
-) -> Path:
+def write_gltf(result: Result, path: str | Path, *, colour: str = "tension") -> Path:
     """Write the last frame of a result to a .glb file, which appears whole or not at all, and return it.
 
-    colour: key of a quantity; current: (3,) m/s, for those that need it. Every part of the net is an object of its
-    own. QuantityError for a quantity without values, OSError where the file cannot be written.
+    colour: key of a quantity. Every part of the net is an object of its own. QuantityError for a quantity without
+    values, OSError where the file cannot be written.
     """
     path = Path(path)
     last = len(result.time) - 1
-    colouring = Colouring.of(result, colour, current)
+    colouring = Colouring.of(result, colour)
     file = _File()
     for name, solid in _solids(result, last, colouring):
         file.add(name, solid)

@@ -22,7 +22,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ..forces.frame import Frame
 from ..results.whole import replacing
@@ -84,14 +84,13 @@ def write_movie(
     path: str | Path,
     reel: Reel | None = None,
     *,
-    current: ArrayLike | None = None,
     on_progress: Progress = lambda share: None,
 ) -> Path:
     """Make a film of a run, .mp4 or .gif, which appears whole or not at all, and return its path.
 
-    Between two outputs positions and forces go straight from one to the other. current: (3,) m/s, for the colours
-    that need it. MovieError for a result of one frame, another ending and packages that are missing; QuantityError
-    for a colour without values; OSError where the film cannot be written.
+    Between two outputs positions and forces go straight from one to the other. MovieError for a result of one frame,
+    another ending and packages that are missing; QuantityError for a colour without values; OSError where the film
+    cannot be written.
     """
     path, reel = Path(path), reel or Reel()
     if path.suffix.lower() not in KINDS:
@@ -99,7 +98,7 @@ def write_movie(
     if path.suffix.lower() == ".mp4" and any(side % 2 for side in reel.size):
         raise MovieError("width and height of an mp4 film are even numbers")
     moments = reel.moments(result)
-    stage = Stage(result, reel, current)
+    stage = Stage(result, reel)
     with replacing(path) as part, closing(stage), _with_ending(part, path.suffix.lower()) as reeling:
         with _writer(reeling, reel.fps) as film:
             for index, moment in enumerate(moments.tolist()):
@@ -176,9 +175,9 @@ def _check_whole(file: Path, count: int) -> None:
 class Stage:
     """The net in front of a camera that sees all of the run."""
 
-    def __init__(self, result: Result, reel: Reel, current: ArrayLike | None) -> None:
+    def __init__(self, result: Result, reel: Reel) -> None:
         self._result, self._reel = result, reel
-        self._colouring = Colouring.of(result, reel.colour, current)
+        self._colouring = Colouring.of(result, reel.colour)
         self._pv = _needed("pyvista")
         _check_drawing()
         # VTK warns of a screen that it does not find, and then does without.

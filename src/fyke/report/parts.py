@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.net import Net
+from ..netting.net import Net, Side
 from . import style
 
 Array = NDArray[np.float64]
@@ -53,6 +53,8 @@ class Outline:
     width: float = 1.6
 
 
+SIDES: tuple[Side, ...] = ("top", "bottom", "left", "right")
+
 Part = Bars | Knots | Outline
 Drawer = Callable[[Net], Iterator[Part]]
 _REGISTER: list[Drawer] = []
@@ -71,13 +73,17 @@ def parts_of(net: Net) -> tuple[Part, ...]:
 
 @draws
 def frames(net: Net) -> Iterator[Part]:
-    """Yield the rectangular frame of every panel that is held along all its edges."""
+    """Yield the frame of every flat panel that is held along all its edges, and the held rims of closed shapes."""
     for panel in net.panels:
-        half = 0.5 * np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [-1, -1]]) * panel.size
-        place = (net.positions[slice(*panel.knots)] - panel.centre) @ panel.axes.T
-        edge = np.any(np.abs(place) > 0.5 * np.array(panel.size) * (1.0 - 1e-9), axis=1)
-        if edge.any() and net.fixed[slice(*panel.knots)][edge].all():
-            yield Outline("frame", panel.centre + half @ panel.axes)
+        sides = {side: panel.edge(side) for side in SIDES}
+        if panel.closed:
+            for rim in (sides["top"], sides["bottom"]):
+                if net.fixed[rim].all() and len(np.unique(rim)) > 1:
+                    yield Outline("rim", net.positions[rim])
+        elif all(net.fixed[edge].all() for edge in sides.values()):
+            (low_left, low_right), (high_left, high_right) = sides["bottom"][[0, -1]], sides["top"][[0, -1]]
+            round_it = [low_left, low_right, high_right, high_left, low_left]
+            yield Outline("frame", net.positions[round_it])
 
 
 @draws

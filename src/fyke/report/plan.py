@@ -27,6 +27,7 @@ from .parts import Knots, parts_of
 from .plane import draw_plane, frame, plane_axes, size_of
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
 
 LEFT, RIGHT, BELOW, LEGEND, TITLE, COLOUR_BAR, COLOUR_BAR_UNDER = 0.6, 0.1, 0.38, 0.26, 0.18, 0.62, 0.46  # in
 TALLEST = 1.3  # height over width of a plan
@@ -36,13 +37,21 @@ COLUMNS = 3  # panels side by side
 
 @dataclass(frozen=True)
 class _Plan:
-    """The net's knots (n, 2) m along the axes of one panel, and which knots and bars are the panel's."""
+    """Netting laid flat: points (k, 2) m, the knot of the net at each (k,), bars between them, ends (b, 2).
+
+    bars: (b, s) bars of the net, the segments of each.
+    """
 
     title: str
     names: tuple[str, str]
     points: Array
-    knots: slice
-    bars: slice
+    knots: Indices
+    ends: Indices
+    bars: Indices
+
+    def tension(self, result: Result) -> Array:
+        """Largest tension of the segments of every bar in the last frame, (b,) N."""
+        return np.asarray(result.tension[-1][self.bars].max(axis=1, initial=0.0))
 
 
 @style.styled
@@ -53,9 +62,9 @@ def tension_plan(result: Result) -> Figure:
     seen square to the plane that fits its knots best.
     """
     plans = _plans(result.net)
-    shown = np.concatenate([result.tension[-1][plan.bars] for plan in plans])
+    shown = np.concatenate([plan.tension(result) for plan in plans])
     scale, taut = tension_scale(shown), bool(np.any(shown > 0.0))
-    sheet = _Sheet.holding([frame(plan.points[plan.knots]) for plan in plans], colour_bar=taut)
+    sheet = _Sheet.holding([frame(plan.points) for plan in plans], colour_bar=taut)
     figure = Figure(figsize=(sheet.width, sheet.height))
     for index, plan in enumerate(plans):
         limits, left, bottom = sheet.place(index)
@@ -82,8 +91,8 @@ def draw_plan(ax: Axes, result: Result, panel: str | None = None) -> None:
     else:
         asked = "the net has several panels" if panel is None else f"the net has no panel {panel!r}"
         raise ValueError(f"{asked}; choose one of {', '.join(plans) or 'none'}")
-    tension = result.tension[-1][plan.bars]
-    scale, limits = tension_scale(tension), frame(plan.points[plan.knots])
+    tension = plan.tension(result)
+    scale, limits = tension_scale(tension), frame(plan.points)
     if np.any(tension > 0.0):
         figure: Any = ax.get_figure(root=True)
         mappable, options = shown_tensions(scale)
@@ -97,17 +106,11 @@ def draw_plan(ax: Axes, result: Result, panel: str | None = None) -> None:
 
 def _draw_netting(ax: Axes, result: Result, plan: _Plan, scale: Normalize, *, named: str) -> None:
     """Draw bars and marked knots of a plan; named: slack bars in the legend."""
-    draw_tension(
-        ax, plan.points, result.net.bars[plan.bars], result.tension[-1][plan.bars], scale, named=named
-    )
+    draw_tension(ax, plan.points, plan.ends, plan.tension(result), scale, named=named)
     for part in parts_of(result.net):
         if isinstance(part, Knots):
-            draw_knots(ax, plan.points, _within(part, plan.knots, len(plan.points)))
-
-
-def _within(part: Knots, knots: slice, count: int) -> Knots:
-    """Return the part of Knots that lies in a slice of so many knots."""
-    return replace(part, knots=np.intersect1d(part.knots, np.arange(count)[knots]))
+            shown = np.flatnonzero(np.isin(plan.knots, part.knots))
+            draw_knots(ax, plan.points, replace(part, knots=shown))
 
 
 @dataclass(frozen=True)
@@ -175,15 +178,15 @@ class _Sheet:
 
 def _plans(net: Net) -> list[_Plan]:
     if net.panels:
-        return [_plan_of(net, panel, title=len(net.panels) > 1) for panel in net.panels]
+        return [_plan_of(panel, title=len(net.panels) > 1) for panel in net.panels]
     offsets = net.positions - net.positions.mean(axis=0)
     axes = np.linalg.svd(offsets, full_matrices=False)[2][:2]
     # The sign of a singular vector is arbitrary: let its largest component be positive.
     axes *= np.sign(axes[[0, 1], np.abs(axes).argmax(axis=1)])[:, None]
-    return [_Plan("", ("Along", "Across"), offsets @ axes.T, slice(None), slice(None))]
+    knots, bars = np.arange(net.knot_count), np.arange(net.bar_count)[:, None]
+    return [_Plan("", ("Along", "Across"), offsets @ axes.T, knots, net.bars, bars)]
 
 
-def _plan_of(net: Net, panel: Panel, *, title: bool) -> _Plan:
-    points = (net.positions - panel.centre) @ panel.axes.T
-    name = panel.name if title else ""
-    return _Plan(name, ("Width", "Height"), points, slice(*panel.knots), slice(*panel.bars))
+def _plan_of(panel: Panel, *, title: bool) -> _Plan:
+    name, names = panel.name if title else "", ("Round" if panel.closed else "Width", "Height")
+    return _Plan(name, names, panel.flat, panel.knots, panel.lattice.bars, panel.bars)

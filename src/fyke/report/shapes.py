@@ -34,17 +34,27 @@ Array = NDArray[np.float64]
 LEFT, RIGHT, LEGEND, NUMBERS, COLOUR_BAR, ARROW = 0.64, 0.25, 0.24, 0.42, 0.46, 0.3  # in, around the box
 LEAST = 0.3  # in, of the box in axes that are too small for what stands around it
 ARROW_LENGTH = 0.32  # in, of a current across the line of sight
+ARROW_LEFT, ARROWS_APART = 0.45, 1.55  # in, of the middle of the first, and to the next
 
 
 @style.styled
-def initial_position(result: Result, *, current: ArrayLike | None = None) -> Figure:
+def initial_position(
+    result: Result, *, current: ArrayLike | None = None, waves: ArrayLike | None = None
+) -> Figure:
     """Show the net before anything acts: its bars and knots, and which knots are fixed.
 
-    current: (3,) m/s, shown as an arrow when given.
+    current: (3,) m/s, and waves: (3,) direction in which they go, each shown as an arrow when given.
     """
     net = result.net
     speed = 0.0 if current is None else float(np.linalg.norm(current))
-    above = LEGEND + (ARROW if speed else 0.0)
+    flows = (
+        []
+        if current is None or not speed
+        else [(np.asarray(current, dtype=float), f"current, {speed:.3g} m/s")]
+    )
+    if waves is not None:
+        flows.append((np.asarray(waves, dtype=float), "waves"))
+    above = LEGEND + (ARROW if flows else 0.0)
     figure, ax = _page(result, above=above, below=NUMBERS)
     view = _in_space(ax, result, above=above, below=NUMBERS)
     width = line_width(net.bar_count)
@@ -58,8 +68,8 @@ def initial_position(result: Result, *, current: ArrayLike | None = None) -> Fig
     seen = view.see(net.positions)
     _draw_parts(ax, view, net, seen, plain)
     draw_free_knots(ax, seen[:, :2], net.fixed)
-    if speed:
-        _draw_current(figure, view, np.asarray(current, dtype=float) / speed, speed)
+    for place, (flow, words) in enumerate(flows):
+        _draw_flow(figure, view, flow / np.linalg.norm(flow), words, left=ARROW_LEFT + place * ARROWS_APART)
     name_marks(figure)
     return figure
 
@@ -127,9 +137,9 @@ def _in_space(ax: Axes, result: Result, *, above: float, below: float) -> View:
     return draw_space(ax, _corners(result), (LEFT, below, width, height))
 
 
-def _draw_current(figure: Figure, view: View, direction: Array, speed: float) -> None:
-    """Draw an arrow as the current is seen, with its speed (m/s), above the axes on the left."""
-    left, up = 0.45, figure.get_figheight() - LEGEND - ARROW / 2.0
+def _draw_flow(figure: Figure, view: View, direction: Array, words: str, *, left: float) -> None:
+    """Draw an arrow as a direction (3,) is seen, with words beside it, above the axes; left: in, of its middle."""
+    up = figure.get_figheight() - LEGEND - ARROW / 2.0
     du, dv = view.axes[:2] @ direction * ARROW_LENGTH / 2.0
     arrow = FancyArrowPatch(
         (left - du, up - dv),
@@ -146,7 +156,7 @@ def _draw_current(figure: Figure, view: View, direction: Array, speed: float) ->
     figure.text(
         left + ARROW_LENGTH / 2.0 + 0.08,
         up,
-        f"current, {speed:.3g} m/s",
+        words,
         transform=figure.dpi_scale_trans,
         ha="left",
         va="center",

@@ -5,10 +5,12 @@ from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkp
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .layout import frame_bytes
-from .probes import Probes, probe, write_probes
+from .probes import Probes, probe, probes_of, write_probes
+from .ranges import OutOfRange, moments, out_of_range
 from .recorder import Recorder
 from .store import ResultError, load, save
 from .tables import write_summary, write_tables
+from .water import flow_direction, mean_current, water_figures
 
 __all__ = [
     "Audit",
@@ -16,19 +18,26 @@ __all__ = [
     "Comparison",
     "EnergyBudget",
     "MeasurementError",
+    "OutOfRange",
     "Probes",
     "Recorder",
     "ResultError",
     "audit",
     "compare",
+    "flow_direction",
     "frame_bytes",
     "frames_of",
     "load",
     "load_checkpoint",
+    "mean_current",
+    "moments",
+    "out_of_range",
     "probe",
+    "probes_of",
     "save",
     "save_checkpoint",
     "summary",
+    "water_figures",
     "write_probes",
     "write_summary",
     "write_tables",

@@ -9,7 +9,7 @@ import xarray
 
 from ..solve.result import Result
 from ..version import __version__
-from .encoding import case_hash, case_title, outcome_to_attributes, panels_to_text, twines_to_text
+from .encoding import PARTS, case_hash, case_title, outcome_to_attributes, parts_to_text, twines_to_text
 from .fields import AXES, FRAME_FIELDS, NET_FIELDS, SCHEMA, WEIGHT, Field
 
 COORDINATES = ("time", "knot_label", "xyz")
@@ -40,7 +40,7 @@ def to_xarray(result: Result) -> xarray.Dataset:
         "case": result.case_text,
         "case_sha256": case_hash(result.case_text),
         "twines": twines_to_text(net.twines),
-        "panels": panels_to_text(net.panels),
+        **{name: parts_to_text(getattr(net, name)) for name in PARTS},
         **outcome_to_attributes(result.outcome),
     }
     return xarray.Dataset(variables, coordinates, attributes)

@@ -23,14 +23,14 @@ def bar_lengths(result: Result, index: int = -1) -> Array:
     return np.asarray(np.linalg.norm(position[end] - position[start], axis=1))
 
 
-def drag_and_lift(force: Array, current_direction: ArrayLike | None) -> tuple[float | None, float | None]:
-    """Split a force (3,) N into the part along the current and the size of the part across it.
+def drag_and_lift(force: Array, flow_direction: ArrayLike | None) -> tuple[float | None, float | None]:
+    """Split a force (3,) N into the part along the flow and the size of the part across it.
 
-    current_direction: (3,), of any length; both parts are None without a direction and in still water.
+    flow_direction: (3,), of any length, as results.flow_direction gives it; both parts are None without one.
     """
-    if current_direction is None or not np.any(current_direction):
+    if flow_direction is None or not np.any(flow_direction):
         return None, None
-    along = np.asarray(current_direction, dtype=float)
+    along = np.asarray(flow_direction, dtype=float)
     along = along / np.linalg.norm(along)
     drag = float(force @ along)
     return drag, float(np.linalg.norm(force - drag * along))
@@ -41,13 +41,13 @@ def summary(
     *,
     title: str | None = None,
     case_sha256: str = "",
-    current_direction: ArrayLike | None = None,
+    flow_direction: ArrayLike | None = None,
     audit: Audit | None = None,
 ) -> dict[str, Any]:
     """Return the figures of the last frame and of the solve, ready for JSON; NaN and infinity become None.
 
-    title and case_sha256: those of the result's case text when left out. current_direction: (3,), of any
-    length; it splits the force of the water into drag and lift, which are None without it or in still water.
+    title and case_sha256: those of the result's case text when left out. flow_direction: (3,), of any
+    length; it splits the force of the water into drag and lift, which are None without it.
     audit: the accounts of the run, None when left out. Forces are in N, lengths in m, times in s.
 
     support_reaction: force of the net on its supports, (3,). max_tension_bar: number of the bar with the
@@ -59,7 +59,7 @@ def summary(
     net, outcome, last = result.net, result.outcome, result.frame()
     bar = int(np.argmax(last.tension)) if np.any(last.tension > 0.0) else None
     strain = bar_lengths(result) / net.rest_length - 1.0
-    drag, lift = drag_and_lift(last.hydrodynamic_force, current_direction)
+    drag, lift = drag_and_lift(last.hydrodynamic_force, flow_direction)
     figures = {
         "title": case_title(result.case_text) if title is None else title,
         "outcome": outcome.name,

@@ -1,22 +1,27 @@
-"""Twines, panels and outcome as texts and numbers that fit into the attributes of a result file."""
+"""Twines, parts of the net and outcome as texts and numbers that fit into the attributes of a result file."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import tomllib
+from collections.abc import Callable, Sequence
 from dataclasses import fields
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, TableLaw
-from ..netting.net import Panel
+from ..netting.net import Bodies, Panel, Rope
 from ..netting.twine import Twine
 from ..solve.outcome import Outcome
 
 LAWS: dict[str, type[Any]] = {"linear": LinearLaw, "power": PowerLaw, "table": TableLaw}
-PANEL_ARRAYS = ("centre", "axes")
+# Parts of a net, by the attribute of the file and of Net that holds them.
+PARTS = ("panels", "ropes", "bodies")
+Part = Panel | Rope | Bodies
+P = TypeVar("P", bound=Part)
 
 
 def _own(noun: Any) -> dict[str, Any]:
@@ -51,20 +56,43 @@ def twines_from_text(text: str) -> tuple[Twine, ...]:
     return tuple(twines)
 
 
-def panels_to_text(panels: tuple[Panel, ...]) -> str:
-    """Write panels as JSON."""
+def parts_to_text(parts: Sequence[Part]) -> str:
+    """Write panels, ropes or bodies as JSON, their arrays as runs that rise by 1: first, count, first, count ..."""
     return json.dumps(
-        [_own(p) | {name: getattr(p, name).tolist() for name in PANEL_ARRAYS} for p in panels],
+        [
+            {
+                key: _runs(value) if isinstance(value, np.ndarray) else value
+                for key, value in _own(one).items()
+            }
+            for one in parts
+        ],
         allow_nan=False,
     )
 
 
-def panels_from_text(text: str) -> tuple[Panel, ...]:
-    """Read what `panels_to_text` wrote."""
-    return tuple(
-        Panel(**(_tuples(noun) | {name: np.array(noun[name], dtype=float) for name in PANEL_ARRAYS}))
-        for noun in json.loads(text)
-    )
+def parts_from_text(kind: Callable[..., P], text: str) -> tuple[P, ...]:
+    """Read what `parts_to_text` wrote of parts of a kind."""
+    return tuple(kind(**{key: _value(value) for key, value in noun.items()}) for noun in json.loads(text))
+
+
+def _value(told: Any) -> Any:
+    if isinstance(told, dict):
+        return _from_runs(told)
+    return tuple(told) if isinstance(told, list) else told
+
+
+def _runs(numbers: NDArray[np.int64]) -> dict[str, list[int]]:
+    flat = numbers.ravel()
+    first = np.flatnonzero(np.diff(flat, prepend=-2) != 1)
+    counts = np.diff(first, append=len(flat))
+    return {"shape": list(numbers.shape), "runs": np.column_stack([flat[first], counts]).ravel().tolist()}
+
+
+def _from_runs(told: dict[str, list[int]]) -> NDArray[np.int64]:
+    first, counts = np.array(told["runs"], dtype=np.int64).reshape(-1, 2).T
+    begin = np.cumsum(counts) - counts
+    within = np.arange(int(counts.sum())) - np.repeat(begin, counts)
+    return np.asarray(np.repeat(first, counts) + within).reshape(told["shape"])
 
 
 def outcome_to_attributes(outcome: Outcome) -> dict[str, Any]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 # Raised when a file of the new kind cannot be read by the old reader.
-SCHEMA = 1
+SCHEMA = 2
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from ..netting.net import Net
 from ..version import __version__
-from .encoding import case_hash, case_title, panels_to_text, twines_to_text
+from .encoding import PARTS, case_hash, case_title, parts_to_text, twines_to_text
 from .fields import AXES, FRAME_FIELDS, NET_FIELDS, SCHEMA, WEIGHT, Field
 
 Array = NDArray[np.float64]
@@ -99,7 +99,7 @@ def _attributes(content: Content) -> dict[str, Any]:
         "case": content.case_text,
         "case_sha256": case_hash(content.case_text),
         "twines": twines_to_text(content.net.twines),
-        "panels": panels_to_text(content.net.panels),
+        **{name: parts_to_text(getattr(content.net, name)) for name in PARTS},
         **content.outcome,
     }
 

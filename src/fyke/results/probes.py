@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..solve.result import Result
+from ..system.system import System
 from ..water.current import Current
 from ..water.waves import Waves
 from .tables import write_table
@@ -44,6 +46,13 @@ def probe(current: Current, waves: Waves, times: ArrayLike, points: ArrayLike) -
     steady = np.array([current.velocity(place, float(one)) for one in time])
     velocity = (steady + [one.velocity for one in moved]) * wet[:, :, None]
     return Probes(time, place, elevation, wet, velocity, np.array([one.acceleration for one in moved]))
+
+
+def probes_of(system: System, result: Result, points: ArrayLike) -> Probes | None:
+    """Ask for the motion of the water at points (m, 3) m through a run; None without waves and for one moment."""
+    if system.waves is None or len(result.time) < 2:
+        return None
+    return probe(system.current, system.waves, result.time, points)
 
 
 def write_probes(probes: Probes, folder: str | Path) -> Path:

@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..case.schema import Case
+from ..forces.surroundings import Surroundings
+from ..netting.faces import Faces
 from ..netting.net import Net
 from ..solve.result import Result
-from ..water.laws import AngleLaw, BarLaw, KnotLaw, PanelLaw, Range
+from ..system.system import System
+from ..water.laws import AngleLaw, BarLaw, Law, Range
 from ..water.laws.law import ANGLE, GAP_REYNOLDS, REYNOLDS, SOLIDITY
+from ..water.wakes import DragWake
+from .water import dry_bars, dry_knots
 
 Array = NDArray[np.float64]
+Flags = NDArray[np.bool_]
 Moment = tuple[float, Array, Array]  # time (s); position, velocity (n, 3) m, m/s
-Velocity = Callable[[Array, float], Array]  # of the water at points (n, 3) m and a time (s): (n, 3) m/s
-# Local solidity, angle (rad) and Reynolds number of p pieces of screen at position and relative velocity (n, 3).
-Screens = Callable[[Array, Array], tuple[Array, Array, Array]]
 
 MOST_FRAMES = 50  # of a run that are looked at
 KEULEGAN_CARPENTER = "Keulegan-Carpenter number"
@@ -29,30 +31,11 @@ ALONG = 1e-6  # sine of the angle to the flow below which a bar lies along it an
 
 
 @dataclass(frozen=True)
-class LawsInUse:
-    """The laws of a run, None where there is none, and the kinematic viscosity (m2/s)."""
-
-    bars: BarLaw | None
-    knots: KnotLaw | None
-    panels: PanelLaw | None
-    viscosity: float
-
-
-def laws_of(case: Case) -> LawsInUse:
-    """Return the laws of a case: those of bars and knots, or that of screens in their place."""
-    screens, viscosity = case.drag.panel_law(), case.water.kinematic_viscosity
-    if screens is not None:
-        return LawsInUse(None, None, screens, viscosity)
-    bars = case.drag.bar_law(solidity=case.solidity, folder=case.folder)
-    return LawsInUse(bars, case.drag.knot_law(), None, viscosity)
-
-
-@dataclass(frozen=True)
 class OutOfRange:
     """What lay outside.
 
-    warnings: a sentence for every quantity of every law; counts, for summary.json: how many of "bars", "knots" or
-    "screens", by law and quantity.
+    warnings: a sentence for every quantity of every law; counts, for summary.json: how many of "bars", "knots",
+    "screens" or "wakes" (of meshes, by the drag law that they follow from), by law and quantity.
     """
 
     warnings: tuple[str, ...]
@@ -66,13 +49,13 @@ class Watch:
     """
 
     def __init__(self, law: str, ranges: Sequence[Range], what: str) -> None:
-        self.law, self.what, self._ranges = law, what, tuple(ranges)
+        self.law, self.what, self.ranges = law, what, tuple(ranges)
         self._seen: dict[str, tuple[Array, Array]] = {}
         self._worst: dict[tuple[str, bool], tuple[float, float]] = {}
 
     def see(self, time: float, values: Mapping[str, ArrayLike]) -> None:
         """Take the values (m,) of quantities at a time (s); NaN is not judged."""
-        for one in self._ranges:
+        for one in self.ranges:
             if one.quantity not in values:
                 continue
             now = np.atleast_1d(np.asarray(values[one.quantity], dtype=float))
@@ -85,7 +68,7 @@ class Watch:
 
     def told(self, *, timed: bool) -> Iterator[tuple[str, str, int]]:
         """Yield quantity, sentence and count of all that has left its range; timed: say when it was furthest."""
-        for one in self._ranges:
+        for one in self.ranges:
             if one.quantity not in self._seen:
                 continue
             low, high = self._seen[one.quantity]
@@ -104,52 +87,92 @@ def moments(result: Result) -> tuple[Moment, ...]:
     return tuple((float(result.time[i]), result.position[i], result.velocity[i]) for i in looked_at)
 
 
-def out_of_range(
-    net: Net,
-    states: Sequence[Moment],
-    laws: LawsInUse,
-    water: Velocity,
-    *,
-    screens: Screens | None = None,
-    waves: tuple[Velocity, float] | None = None,
-) -> OutOfRange:
-    """Judge the laws at some states of a net, each quantity once.
+def out_of_range(system: System, states: Sequence[Moment]) -> OutOfRange:
+    """Judge the laws of a system at some states of its net, in the water that acts there, each quantity once.
 
-    water: velocity of the water, as the drag meets it; screens: what the panel law is judged by; waves: velocity
-    that is theirs, and their period (s). Bars and knots in still water are not judged: nothing acts on them. A law that
-    splits the flow is judged by the speed across the bar, one of the angle by the whole speed.
+    What is in still water or above the surface is not judged: nothing acts on it. A law that splits the flow is judged
+    by the speed across the bar, one of the angle by the whole speed. In waves U T / d of every bar is judged, too, U
+    the largest speed of the waves there in these states and T the period, or that of the peak of their spectrum.
     """
-    watches = [
-        Watch(law.name, law.ranges, what)
-        for law, what in ((laws.bars, "bars"), (laws.knots, "knots"), (laws.panels, "screens"))
-        if law is not None
-    ]
-    for time, position, velocity in states:
-        relative = water(position, time) - velocity
+    watches = [watch for watch in _watches(system) if watch.ranges]
+    around = Surroundings(system)
+    for time, position, velocity in states if watches else ():
+        around.renew(position, time)
+        relative = around.given(position, velocity, time)[1] - velocity
         for watch in watches:
-            if watch.what == "bars" and laws.bars:
-                watch.see(time, bar_values(net, position, relative, laws.bars, laws.viscosity))
-            elif watch.what == "knots":
-                watch.see(time, knot_values(net, relative, laws.viscosity))
-            elif screens is not None:
-                watch.see(time, _screen_values(*screens(position, relative)))
+            watch.see(time, _values(around, watch.what, time, position, relative))
     told = [(watch, *one) for watch in watches for one in watch.told(timed=len(states) > 1)]
-    if waves is not None and laws.bars:
-        reach = _reach(net, states, laws.bars, *waves)
-        told += [(reach, *one) for one in reach.told(timed=False)]
+    reach = _reach(system, states)
+    told += [(reach, *one) for one in reach.told(timed=False)]
     counts: dict[str, dict[str, dict[str, int]]] = {}
     for watch, quantity, _, count in told:
         counts.setdefault(watch.what, {}).setdefault(watch.law, {})[quantity] = count
     return OutOfRange(tuple(sentence for _, _, sentence, _ in told), counts)
 
 
-def _reach(net: Net, states: Sequence[Moment], law: BarLaw, velocity: Velocity, period: float) -> Watch:
+def _watches(system: System) -> Iterator[Watch]:
+    """One for each law of bars, of knots, of screens in their place and of drag behind wakes, where they act."""
+    c, (bars, knots) = system.coefficients, _by_themselves(system)
+    laws: tuple[tuple[Law | None, str, bool], ...] = (
+        (c.bars, "bars", bool(bars.any())),
+        (c.knots, "knots", bool(knots.any())),
+        (c.screens, "screens", bool(system.net.panels)),
+    )
+    for law, what, there in laws:
+        if law is not None and there:
+            yield Watch(law.name, law.ranges, what)
+    if isinstance(c.wake, DragWake) and system.net.panels:
+        yield Watch(c.wake.panel.name, c.wake.ranges, "wakes")
+
+
+def _by_themselves(system: System) -> tuple[Flags, Flags]:
+    """Bars (m,) and knots (n,) that have drag of their own: under screens only those outside the netting."""
+    net = system.net
+    bars, knots = np.ones(net.bar_count, dtype=bool), np.ones(net.knot_count, dtype=bool)
+    for panel in net.panels if system.coefficients.screens is not None else ():
+        bars[panel.bars] = False
+        knots[panel.knots] = False
+    return bars, knots
+
+
+def _values(
+    around: Surroundings, what: str, time: float, position: Array, relative: Array
+) -> Mapping[str, ArrayLike]:
+    """Values of "bars", "knots", "screens" or "wakes"; relative: (n, 3) m/s, the water against the knots."""
+    system, (bars, knots) = around.system, _by_themselves(around.system)
+    law, viscosity = system.coefficients.bars, system.water.kinematic_viscosity
+    if what == "screens":
+        return {} if around.screens is None else _screen_values(*around.screens.local(position, relative))
+    if what == "wakes":
+        return {} if around.faces is None else {SOLIDITY: _solidity(around.faces, position)}
+    if what == "bars":
+        there = bars & ~dry_bars(system, position, time)[0]
+        values = bar_values(system.net, position, relative, law, viscosity)
+    else:
+        there = knots & ~dry_knots(system, position, time)
+        values = knot_values(system.net, relative, viscosity)
+    return {quantity: _where_some(one, there) for quantity, one in values.items()}
+
+
+def _solidity(faces: Faces, position: Array) -> Array:
+    """Return the solidity of netting as it is stretched, (p,), with its knots at positions (n, 3) m."""
+    area = np.linalg.norm(faces.vector_area(position), axis=1)
+    solid = faces.solidity * faces.area
+    return np.asarray(solid / np.maximum(area, solid))
+
+
+def _reach(system: System, states: Sequence[Moment]) -> Watch:
     """Return a watch that has seen U T / d of every bar, U the largest speed of the waves there in these states."""
+    net, c, waves = system.net, system.coefficients, system.waves
+    watch = Watch((c.screens or c.bars).name, (STEADY,), "bars")
+    if waves is None or waves.named is None:
+        return watch
     swing = np.zeros(net.bar_count)
     for time, position, _ in states:
-        swing = np.maximum(swing, np.linalg.norm(_middle(net, velocity(position, time)), axis=1))
-    watch = Watch(law.name, (STEADY,), "bars")
-    watch.see(states[-1][0], {KEULEGAN_CARPENTER: _where_some(swing * period / net.bar_diameter, swing)})
+        speed = np.linalg.norm(_middle(net, waves.motion(position, time).velocity), axis=1)
+        swing = np.maximum(swing, speed)
+    numbers = swing * waves.named.period / net.bar_diameter
+    watch.see(states[-1][0], {KEULEGAN_CARPENTER: _where_some(numbers, swing)})
     return watch
 
 
@@ -188,5 +211,5 @@ def _middle(net: Net, at_knots: Array) -> Array:
     return np.asarray(0.5 * (at_knots[a] + at_knots[b]))
 
 
-def _where_some(values: Array, size: Array) -> Array:
-    return np.where(size > 0.0, values, np.nan)
+def _where_some(values: Array, size: Array | Flags) -> Array:
+    return np.where(size > 0, values, np.nan)

@@ -9,10 +9,10 @@ from typing import Any
 import h5py
 import numpy as np
 
-from ..netting.net import Net
+from ..netting.net import Bodies, Net, Panel, Rope
 from ..solve.outcome import Outcome
 from ..solve.result import Result
-from .encoding import outcome_from_attributes, outcome_to_attributes, panels_from_text, twines_from_text
+from .encoding import outcome_from_attributes, outcome_to_attributes, parts_from_text, twines_from_text
 from .fields import FRAME_FIELDS, NET_FIELDS, SCHEMA, WEIGHT
 from .layout import RUNNING, Content, check_finite, frame_offsets, lay_out, write_frames
 from .whole import replacing
@@ -102,7 +102,9 @@ def _read_net(file: Any, attributes: dict[str, Any]) -> Net:
     return Net(
         labels=tuple(file[NET_FIELDS["labels"].name].asstr()[...]),
         twines=twines_from_text(attributes["twines"]),
-        panels=panels_from_text(attributes["panels"]),
+        panels=parts_from_text(Panel, attributes["panels"]),
+        ropes=parts_from_text(Rope, attributes["ropes"]),
+        bodies=parts_from_text(Bodies, attributes["bodies"]),
         **values,
     )
 

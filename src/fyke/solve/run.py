@@ -8,7 +8,10 @@ from typing import Any
 from ..case.schema import Case, DynamicSolve
 from ..forces.compiled import is_compiled
 from ..forces.frame import Frame
+from ..forces.screen_tangents import screen_tangents
+from ..forces.upstream import wake_factors
 from ..system.system import System
+from ..water.waves.kernel import motion_of
 from .auto import Auto
 from .cone import cone_changes
 from .dynamic import Checkpoint, Settle, output_times, simulate
@@ -51,7 +54,13 @@ _KERNELS: dict[str, tuple[Any, ...]] = {
 def needs_compiling(case: Case) -> bool:
     """Whether a run of the case has to compile its kernels first, which takes some ten seconds, once."""
     chosen = case.solve
-    kernels = _KERNELS[chosen.stepper if isinstance(chosen, DynamicSolve) else "static"]
+    kernels = [*_KERNELS[chosen.stepper if isinstance(chosen, DynamicSolve) else "static"]]
+    if isinstance(chosen, DynamicSolve) and case.waves is not None:
+        kernels.append(motion_of)
+    if case.drag.kind == "screens":
+        kernels.append(screen_tangents)
+    if case.shelter.wake_law() is not None:
+        kernels.append(wake_factors)
     return not all(is_compiled(kernel) for kernel in kernels)
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from ..netting.panel import panel
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
+from ..water.inertia import AddedMassLaw
+from ..water.laws import KnotLaw, Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
@@ -27,6 +30,7 @@ Array = NDArray[np.float64]
 
 # Strain at which the secant of an elastic law stands for its stiffness where one number is needed.
 REFERENCE_STRAIN = 0.01
+NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
@@ -61,10 +65,17 @@ def build_system(net: Net, case: Case) -> System:
         current=case.current.flow(),
         water=Water(water.density, water.kinematic_viscosity, water.gravity),
         coefficients=_coefficients(case),
-        waves=None if case.waves is None else case.waves.sea(water.depth, water.gravity),
+        waves=_waves(case),
         surface=True,
     )
     return replace(system, case_text=case.text)
+
+
+def _waves(case: Case) -> Waves | None:
+    """Waves of a case; a static one has none, just as its current has no ramp."""
+    if case.waves is None or case.solve.kind == "static":
+        return None
+    return case.waves.sea(case.water.depth, case.water.gravity)
 
 
 def _coefficients(case: Case) -> Coefficients:
@@ -98,9 +109,11 @@ def make_system(
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
     volume = area * net.rest_length
-    knot_volume = np.pi / 6.0 * net.knot_diameter**3
-    mass = _to_knots(net, density * volume) + net.knot_density * knot_volume
-    sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
+    knot_volume, body_volume = np.pi / 6.0 * net.knot_diameter**3, net.at_knots("volume")
+    knot_only = net.knot_density * knot_volume + net.at_knots("mass")
+    knot_volume = knot_volume + body_volume
+    mass = _to_knots(net, density * volume) + knot_only
+    sinking = _to_knots(net, (density - w.density) * volume) + knot_only - w.density * knot_volume
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
@@ -136,7 +149,7 @@ def make_system(
         waves=waves,
         surface=surface or waves is not None,
         faces=faces_of(net) if c.screens or c.wake or c.twines else None,
-        sources=_sources(net, c, damping),
+        sources=_sources(net, c, damping, waves),
     )
 
 
@@ -146,8 +159,9 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
-            scale[slice(*panel.bars)] = 0.0
-            disc[slice(*panel.knots)] = 0.0
+            scale[panel.bars] = 0.0
+            disc[panel.knots] = 0.0
+    bodies = 0.5 * w.density * net.at_knots("drag_area")
     zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
     fields: dict[str, Any] = {
         "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
@@ -159,7 +173,7 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
             "plain": True,
             "normal_drag": scale * bars.normal,
             "tangential_drag": scale * bars.tangential,
-            "knot_drag": disc * knots.drag,
+            "knot_drag": disc * knots.drag + bodies,
             "bar_curve": zeros[0],
             "bar_curves": np.zeros((1, INTERVALS, ROW)),
             "friction": 0.0,
@@ -169,20 +183,36 @@ def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
         }
     thickness, bar_curve = np.unique(net.bar_diameter, return_inverse=True)
     curves = bar_curves(bars, thickness / w.kinematic_viscosity)
-    breadth, knot_curve = np.unique(net.knot_diameter, return_inverse=True)
-    reference, rows = knot_curves(knots, breadth / w.kinematic_viscosity)
+    knot_drag, knot_curve, rows = _knot_curves(net, w, knots, disc, bodies)
     return fields | {
         "plain": False,
         "normal_drag": scale * curves.reference[bar_curve],
         "tangential_drag": scale * curves.along[bar_curve],
-        "knot_drag": disc * reference[knot_curve],
+        "knot_drag": knot_drag,
         "bar_curve": bar_curve.astype(np.int32),
         "bar_curves": curves.rows,
         "friction": curves.friction,
         "angles": curves.angles,
-        "knot_curve": knot_curve.astype(np.int32),
+        "knot_curve": knot_curve,
         "knot_curves": rows,
     }
+
+
+def _knot_curves(
+    net: Net, w: Water, law: KnotLaw, disc: Array, bodies: Array
+) -> tuple[Array, NDArray[np.int32], Array]:
+    """Drag (n,) kg/m of knots and bodies at the reference speed, which curve each has (n,), and these.
+
+    disc: (n,) 1/2 rho pi/4 d^2 of the knots; bodies: (n,) 1/2 rho C_D A, which does not change with the speed.
+    """
+    kinds, which = np.unique(np.column_stack([net.knot_diameter, disc, bodies]), axis=0, return_inverse=True)
+    reference, rows = knot_curves(law, kinds[:, 0] / w.kinematic_viscosity)
+    own, fixed = kinds[:, 1] * reference, kinds[:, 2]
+    whole = own + fixed
+    share = np.divide(own, whole, out=np.ones_like(whole), where=whole > 0.0)
+    rows[:, :, :4] *= share[:, None, None]
+    rows[:, :, 0] += (1.0 - share)[:, None]
+    return whole[which.reshape(-1)], which.reshape(-1).astype(np.int32), rows
 
 
 def ringing(net: Net, stiffness: Array, knot_mass: Array) -> Array:
@@ -204,11 +234,17 @@ def _retardation(net: Net, frequency: Array) -> Array:
     return np.asarray(time + np.divide(loss, frequency, out=np.zeros_like(loss), where=frequency > 0.0))
 
 
-def _sources(net: Net, c: Coefficients, damping: Array) -> tuple[str, ...]:
-    """One line for each law: what it says and where it comes from."""
+def _sources(net: Net, c: Coefficients, damping: Array, waves: Waves | None) -> tuple[str, ...]:
+    """One line for each law: what it says, where it comes from and how far that was read."""
     return (
-        *_drag_sources(c),
+        *_drag_sources(net, c),
+        *(
+            f"shelter {where}: {_told(law)}"
+            for where, law in (("behind netting", c.wake), ("between twines", c.twines))
+            if law is not None
+        ),
         _mass_source(c),
+        *_wave_sources(waves),
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
         *(
             f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
@@ -217,30 +253,59 @@ def _sources(net: Net, c: Coefficients, damping: Array) -> tuple[str, ...]:
     )
 
 
-def _drag_sources(c: Coefficients) -> tuple[str, str]:
-    """One line for the bars, one for the knots."""
-    bars, knots = c.bars, c.knots
-    if isinstance(bars, ConstantBar):
-        bar = (
-            f"constant C_n = {bars.normal:g}, C_t = {bars.tangential:g} on d x length, normal and tangential "
-            "parts apart (split: Choo & Casarella 1971, J. Hydronautics 5(4); values 1.2, 0.1: Bessonneau & "
+def _drag_sources(net: Net, c: Coefficients) -> Iterator[str]:
+    """One line for screens, and for bars and knots where there are some outside of them."""
+    if c.screens is not None and net.panels:
+        yield f"drag of netting as screens: {_told(c.screens)}"
+        if len(np.unique(np.concatenate([panel.bars.ravel() for panel in net.panels]))) == net.bar_count:
+            return
+    if isinstance(c.bars, ConstantBar):
+        yield (
+            f"bar drag: constant C_n = {c.bars.normal:g}, C_t = {c.bars.tangential:g} on d x length, normal and "
+            "tangential parts apart (split: Choo & Casarella 1971, J. Hydronautics 5(4); values 1.2, 0.1: Bessonneau & "
             "Marichal 1998, Ocean Eng. 25(7))"
         )
     else:
-        bar = f"{bars.title} ({bars.source})"
-    knot = (
-        f"constant C_D = {knots.drag:g} of a sphere on pi d^2/4"
-        if isinstance(knots, ConstantKnot)
-        else f"{knots.title} ({knots.source})"
-    )
-    return f"bar drag: {bar}", f"knot drag: {knot}"
+        yield f"bar drag: {_told(c.bars)}"
+    if isinstance(c.knots, ConstantKnot):
+        yield f"knot drag: constant C_D = {c.knots.drag:g} of a sphere on pi d^2/4"
+    else:
+        yield f"knot drag: {_told(c.knots)}"
+
+
+def _told(law: Law | AddedMassLaw) -> str:
+    """Title, parameters and source of a law, and how far that was read."""
+    known = {one.name: getattr(law, one.name) for one in fields(law)}  # type: ignore[arg-type] # all are dataclasses
+    given = [f"{name} = {value:g}" for name, value in known.items() if isinstance(value, float)]
+    given += [f"{name} = {value}" for name, value in known.items() if isinstance(value, str)]
+    given += [f"by {value.title} ({value.name})" for value in known.values() if isinstance(value, Law)]
+    read = "" if law.read == NOT_READ else f"; read {law.read}"
+    return f"{', '.join([law.title, *given])} ({law.source}{read})"
 
 
 def _mass_source(c: Coefficients) -> str:
     """One line for the added mass."""
     law = c.bar_mass
-    bar = f"C_a = {float(law.coefficient(0.0)):g}" if law.constant else f"{law.title} ({law.source})"
+    bar = f"C_a = {float(law.coefficient(0.0)):g}" if law.constant else _told(law)
     return f"added mass: {bar} across a bar, {c.added_mass_knot:g} of a knot (potential flow: cylinder 1, sphere 1/2)"
+
+
+def _wave_sources(waves: Waves | None) -> Iterator[str]:
+    """One line for the waves, what they do at the surface, and the force of accelerating water."""
+    if waves is None:
+        return
+    if waves.named is not None:
+        yield f"waves: {waves.named.kind} ({waves.named.source})"
+    if waves.stretching == "wheeler":
+        yield (
+            "waves up to the surface: J.D. Wheeler, Method for calculating forces produced by irregular waves, J. "
+            "Petroleum Technology 22, 1970; read in public codes"
+        )
+    yield (
+        "force of accelerating water: (1 + C_a) rho V a across a bar and of a knot, rho V a along a bar (J.R. Morison, "
+        "M.P. O'Brien, J.W. Johnson, S.A. Schaaf, The force exerted by surface waves on piles, Petroleum Transactions "
+        "189, 149-154, 1950; not opened, for a moving body worked out)"
+    )
 
 
 def _damping(twine: Twine, time: Array) -> str:

@@ -110,5 +110,5 @@ def _net(net: Net, fine: Grid, coarse: Grid, knots: Indices, bars: Indices, elem
         knot_diameter=net.knot_diameter[knots],
         knot_density=net.knot_density[knots],
         load=net.load[knots],
-        panels=(replace(panel, meshes=coarse.meshes, knots=(0, n), bars=(0, m)),),
+        panels=(replace(panel, meshes=coarse.meshes, knots=np.arange(n), bars=np.arange(m)[:, None]),),
     )

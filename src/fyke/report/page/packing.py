@@ -63,7 +63,7 @@ class Packed:
         return {"data": self.text, "low": self.low, "step": self.step}
 
 
-def scene(result: Result, current: Array | None) -> dict[str, Any]:
+def scene(result: Result) -> dict[str, Any]:
     """Return what the page draws in space: parts, kept frames, quantities of the bars; lengths in m."""
     kept = kept_frames(result)
     net = result.net
@@ -78,16 +78,14 @@ def scene(result: Result, current: Array | None) -> dict[str, Any]:
         "bars": deflated(net.bars.astype(np.uint32)),
         "box": [low.tolist(), high.tolist()],
         "position": Packed.of(shape, low, high).as_json(),
-        "quantities": [_quantity(result, kept, q, current) for q in quantities(current)],
+        "quantities": [_quantity(result, kept, q) for q in quantities(result)],
         "parts": [_part(part) for part in parts_of(net)],
         "eye": [AZIMUTH, ELEVATION],
     }
 
 
-def _quantity(
-    result: Result, kept: NDArray[np.int64], quantity: BarQuantity, current: Array | None
-) -> dict[str, Any]:
-    values = np.array([quantity.values(result, int(k), current) for k in kept])
+def _quantity(result: Result, kept: NDArray[np.int64], quantity: BarQuantity) -> dict[str, Any]:
+    values = np.array([quantity.values(result, int(k)) for k in kept])
     high = float(values.max(initial=0.0)) or 1.0
     packed = Packed.of(values[:, :, None], np.zeros(1), np.array([high]))
     about = {"key": quantity.key, "name": quantity.name, "unit": quantity.unit, "high": high}

@@ -15,9 +15,10 @@ import numpy as np
 from jinja2 import Environment, StrictUndefined
 from markupsafe import Markup
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ...case.schema import Case
+from ...results import flow_direction, mean_current, probes_of
 from ...results.compare import Comparison
 from ...results.whole import replacing
 from ...solve.result import Result
@@ -39,6 +40,7 @@ TITLES = {
     "tension_histogram": "How many bars bear how much",
     "histories": "Deflection, drag, largest tension and kinetic energy against time",
     "comparison": "Measured and computed positions",
+    "waves": "Elevation of the surface, and velocity of the water at the first probe",
 }
 
 
@@ -76,9 +78,10 @@ def render(
     result: Result, *, figures: dict[str, Any], origin: Origin, comparison: Comparison | None = None
 ) -> str:
     """Return the report as HTML text."""
-    current = None if origin.case is None else np.array(origin.case.current.at_surface)
+    system = origin.system
     spatial = result.net.bar_count <= MOST_BARS
-    data = {"scene": scene(result, current) if spatial else None, "histories": _histories(result, current)}
+    flow = None if system is None else flow_direction(system)
+    data = {"scene": scene(result) if spatial else None, "histories": _histories(result, flow)}
     kept = kept_frames(result)
     step = np.ptp(result.position[kept].reshape(-1, 3), axis=0).max() / STEPS
     html: str = _template("report.html").render(
@@ -92,7 +95,7 @@ def render(
         panels=[(p.name, words.panel_rows(result, p)) for p in result.net.panels],
         supports=words.support_rows(result, origin.system),
         comparison=comparison,
-        pictures=_pictures(result, current, comparison),
+        pictures=_pictures(result, origin, comparison),
         sources=origin.sources,
         case_text=result.case_text,
         versions=words.versions(),
@@ -127,20 +130,26 @@ def _plotly() -> str:
     return deflated(np.frombuffer(code, dtype=np.uint8))
 
 
-def _histories(result: Result, current: Array | None) -> list[dict[str, Any]]:
+def _histories(result: Result, flow: Array | None) -> list[dict[str, Any]]:
     if len(result.time) < 2:
         return []
     return [
         {"name": name, "unit": unit, "time": result.time.tolist(), "values": values.tolist()}
-        for name, values, unit in curves(result, current)
+        for name, values, unit in curves(result, flow)
     ]
 
 
-def _pictures(
-    result: Result, current: ArrayLike | None, comparison: Comparison | None
-) -> list[dict[str, str]]:
+def _pictures(result: Result, origin: Origin, comparison: Comparison | None) -> list[dict[str, str]]:
     """Name, caption and both forms of every figure."""
-    made = figures_of(result, comparison=comparison, current=current)
+    water: dict[str, Any] = {}
+    if origin.system is not None and origin.case is not None:
+        waves = origin.system.waves
+        water = {
+            "current": mean_current(origin.system),
+            "waves": None if waves is None else waves.direction,
+            "probes": probes_of(origin.system, result, origin.case.output.probes),
+        }
+    made = figures_of(result, comparison=comparison, **water)
     return [
         {"name": name, "title": TITLES[name], **{kind: _data_uri(figure, kind) for kind in OPTIONS}}
         for name, figure in made.items()

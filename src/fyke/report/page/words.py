@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...netting.measures import measure_panel
 from ...netting.net import Panel
 from ...results.audit import forces_on_knots
+from ...results.water import water_words
 from ...solve.result import Result
 from ...system.system import System
 from ...version import __version__
@@ -50,7 +51,7 @@ def key_numbers(figures: dict[str, Any]) -> list[Row]:
     """Name, text and exact value of the numbers at the top of the report, from the summary."""
     bar = figures["max_tension_bar_label"]
     return [
-        ("Drag, along the current", number(figures["drag"], "N"), figures["drag"]),
+        ("Drag, along the flow", number(figures["drag"], "N"), figures["drag"]),
         ("Lift, across it", number(figures["lift"], "N"), figures["lift"]),
         (
             "Largest tension" + (f", bar {bar}" if bar else ""),
@@ -63,6 +64,7 @@ def key_numbers(figures: dict[str, Any]) -> list[Row]:
         ("Weight in water", number(figures["weight_in_water"], "N"), figures["weight_in_water"]),
         ("Force on the supports", vector(figures["support_reaction"], "N"), None),
         ("Knots and bars", f"{figures['knots']}, {figures['bars']}", figures["knots"]),
+        *((name[:1].upper() + name[1:], text, None) for name, text in water_words(figures)),
     ]
 
 
@@ -105,9 +107,10 @@ def energy_rows(figures: dict[str, Any]) -> list[Row]:
         return []
     e = accounts["energy"]
     shares = (
-        ("Work of the current", e["current_work"]),
+        ("Work of current and waves" if "waves" in figures else "Work of the current", e["current_work"]),
         ("Work of weight and dead loads", -e["potential"]),
         ("Work of turning added mass", e["added_mass_work"]),
+        *([("Work of the inertia of the water", e["inertia_work"])] if e["inertia_work"] else []),
         ("Lost to drag", -e["drag_dissipation"]),
         ("Lost in the twine", -e["twine_dissipation"]),
         ("Gone into motion", -e["kinetic"]),
@@ -122,14 +125,18 @@ def panel_rows(result: Result, panel: Panel) -> list[Row]:
     net = result.net
     measures = measure_panel(net, panel)
     twine = next(t for t in net.twines if t.name == panel.twine)
-    tension = result.tension[-1][slice(*panel.bars)]
-    knots = slice(*panel.knots)
+    tension = result.tension[-1][np.unique(panel.bars)]
+    knots = np.unique(panel.knots)
     across, down = panel.meshes
     e1, e2 = measures.hanging_ratios
     material = f"{twine.material}, " if twine.material else ""
     return [
         ("Netting", f"{panel.mesh}, {across} × {down} meshes", None),
-        ("Frame", f"{panel.size[0]:.4g} m × {panel.size[1]:.4g} m", None),
+        (
+            "Frame" if panel.shape == "panel" else f"{panel.shape.capitalize()}, laid flat",
+            f"{panel.size[0]:.4g} m × {panel.size[1]:.4g} m",
+            None,
+        ),
         ("Bar length", number(1e3 * panel.bar_length, "mm"), panel.bar_length),
         ("Twine", f"{material}{1e3 * twine.diameter:.4g} mm, {twine.law.describe()}", twine.diameter),
         (
@@ -164,7 +171,8 @@ def support_rows(result: Result, system: System | None) -> list[tuple[str, str, 
     if system is not None and len(net.panels) > 1:
         force = forces_on_knots(system, last)
         for panel in net.panels:
-            held = np.flatnonzero(net.fixed[slice(*panel.knots)]) + panel.knots[0]
+            knots = np.unique(panel.knots)
+            held = knots[net.fixed[knots]]
             if len(held):
                 rows.append(_support(panel.name, len(held), force[held].sum(axis=0)))
     return [*rows, _support("whole net", int(np.count_nonzero(net.fixed)), last.support_reaction)]

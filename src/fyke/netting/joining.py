@@ -1,0 +1,69 @@
+"""Pieces of netting joined knot by knot along their edges, and lines made fast to them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .net import Net
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+
+def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
+    """Return the net in which every knot of `goes` has become the knot of `stays` at the same place of the list.
+
+    stays, goes: (k,) knots of the net. Bars, panels, ropes and bodies of a knot that goes are those of the one that
+    stays, which keeps its place and takes the larger diameter; it is held when one of the two was. ValueError when the
+    lists differ in length or a knot goes to two places.
+    """
+    keep, leave = np.asarray(stays, dtype=np.int64), np.asarray(goes, dtype=np.int64)
+    if len(keep) != len(leave):
+        raise ValueError(f"{len(keep)} knots cannot be joined to {len(leave)}, one by one")
+    target = np.arange(net.knot_count)
+    for a, b in zip(keep.tolist(), leave.tolist(), strict=True):
+        if target[b] not in (b, a):
+            raise ValueError(f"knot {net.labels[b]} is joined to two knots")
+        target[b] = a
+    while not np.array_equal(target, target[target]):
+        target = target[target]
+    left = np.flatnonzero(target == np.arange(net.knot_count))
+    place = np.empty(net.knot_count, dtype=np.int64)
+    place[left] = np.arange(len(left))
+    place = place[target]
+    fixed, thick = np.zeros(len(left), dtype=bool), np.zeros(len(left))
+    np.logical_or.at(fixed, place, net.fixed)
+    np.maximum.at(thick, place, net.knot_diameter)
+    load = np.zeros((len(left), 3))
+    np.add.at(load, place, net.load)
+    return replace(
+        net,
+        positions=net.positions[left],
+        labels=tuple(net.labels[i] for i in left),
+        fixed=fixed,
+        bars=place[net.bars],
+        knot_diameter=thick,
+        knot_density=net.knot_density[left],
+        load=load,
+        panels=tuple(replace(one, knots=place[one.knots]) for one in net.panels),
+        ropes=tuple(replace(one, knots=place[one.knots]) for one in net.ropes),
+        bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),
+    )
+
+
+def seam(one: Indices, other: Indices, *, closed: bool = False) -> tuple[Indices, Indices]:
+    """Pair the knots of two edges so that the edge with more meshes is taken up evenly on the one with fewer.
+
+    one, other: (a,), (b,) knots in order in the same direction; closed: the last of each is the first. Returns the
+    knots that stay, of the edge with fewer, and those that go, each of the other edge once.
+    """
+    few, many = (one, other) if len(one) <= len(other) else (other, one)
+    if closed:
+        few, many = few[:-1], many[:-1]
+        place = np.floor(np.arange(len(many)) * len(few) / len(many) + 0.5).astype(np.int64) % len(few)
+    else:
+        place = np.floor(np.linspace(0.0, len(few) - 1.0, len(many)) + 0.5).astype(np.int64)
+    return few[place], many

@@ -1,0 +1,96 @@
+"""Netting round an axis: cylinder, cone, frustum, cage. Seams close: the last column of knots is the first."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .joining import joined, seam
+from .lattice import Edge
+from .net import Net
+from .sheet import Netting, sheet
+from .together import together
+
+Array = NDArray[np.float64]
+
+
+def frustum(
+    netting: Netting,
+    meshes: tuple[int, int],
+    *,
+    diameters: tuple[float, float],
+    height: float,
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "",
+) -> Net:
+    """Lay netting on a frustum of a cone that stands upright.
+
+    meshes: around and along the height; diameters: m, of the lower and the upper rim; height: m; centre: m, of the
+    upper rim. Equal rims make a cylinder. A lower rim of diameter 0 makes a cone, whose lowest knots are one, its tip;
+    square meshes cannot be gathered so, because they have bars along the rim. ValueError for sizes that are no shape.
+    """
+    low, high = diameters
+    if not (min(low, high) >= 0.0 and max(low, high) > 0.0 and height >= 0.0):
+        raise ValueError(f"diameters {low:g} and {high:g} m and a height of {height:g} m make no frustum")
+    if min(low, high) == 0.0 and (netting.mesh == "square" or high == 0.0):
+        raise ValueError("only diamond netting is gathered in a tip, and below: give the rim a diameter")
+    if height == 0.0 and low == high:
+        raise ValueError(f"two rims of {low:g} m at the same height have no netting between them")
+
+    def surface(parts: Array) -> Array:
+        angle, up = 2.0 * np.pi * parts[:, 0], parts[:, 1]
+        radius = 0.5 * (low + (high - low) * up)
+        places = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), height * (up - 1.0)])
+        return np.asarray(places + np.array(centre))
+
+    slant = float(np.hypot(0.5 * (high - low), height))
+    return sheet(
+        netting,
+        meshes,
+        surface,
+        shape="cylinder" if low == high else "cone" if low == 0.0 else "frustum",
+        size=(0.5 * np.pi * (low + high), slant),
+        closed=True,
+        tip=low == 0.0,
+        fixed=fixed,
+        name=name,
+    )
+
+
+def cage(
+    netting: Netting,
+    meshes: tuple[int, int],
+    *,
+    diameter: float,
+    depth: float,
+    bottom: tuple[int, float] | None = None,
+    top: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "cage",
+) -> Net:
+    """Lay a round cage: a cylinder, closed below by a cone or a disc of the same diamond netting.
+
+    meshes: around and along the depth; diameter, depth: m, of the cylinder; bottom: meshes from the rim to the middle
+    and how far (m) the middle hangs below the rim, 0 for flat; None for open; top: m, centre of the upper rim. Its
+    panels are called NAME and NAME bottom.
+    """
+    wall = frustum(
+        netting, meshes, diameters=(diameter, diameter), height=depth, centre=top, fixed=fixed, name=name
+    )
+    if bottom is None:
+        return wall
+    deep, sink = bottom
+    rim = (top[0], top[1], top[2] - depth)
+    floor = frustum(
+        netting,
+        (meshes[0], deep),
+        diameters=(0.0, diameter),
+        height=sink,
+        centre=rim,
+        fixed="none",
+        name=f"{name} bottom",
+    )
+    whole = together([wall, floor])
+    above, below = whole.panels
+    return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))

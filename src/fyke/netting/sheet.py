@@ -1,0 +1,135 @@
+"""Netting laid on a surface: knots where the meshes meet it, bars between them, each in one or several segments."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .lattice import Edge, Lattice, MeshKind, lattice
+from .net import Net, Panel
+from .twine import Twine
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+# From parts of the width and the height, (k, 2) from 0 to 1, to places (k, 3) m.
+Surface = Callable[[Array], Array]
+
+
+@dataclass(frozen=True)
+class Netting:
+    """What netting is made of.
+
+    mesh: kind; bar_length: m, knot centre to knot centre, unloaded; knot_diameter: m, 0 for knotless; knot_density:
+    kg/m3, the twine's when None; segments: straight pieces that a bar is cut into, so that it can bow.
+    """
+
+    twine: Twine
+    mesh: MeshKind
+    bar_length: float
+    knot_diameter: float = 0.0
+    knot_density: float | None = None
+    segments: int = 1
+
+
+def sheet(
+    netting: Netting,
+    meshes: tuple[int, int],
+    surface: Surface,
+    *,
+    shape: str,
+    size: tuple[float, float],
+    closed: bool = False,
+    tip: bool = False,
+    fixed: Edge = "edges",
+    name: str = "",
+) -> Net:
+    """Lay netting of so many meshes along width and height on a surface.
+
+    shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
+    knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with
+    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
+    "0-0>1-1.1".
+    """
+    grid = lattice(netting.mesh, meshes)
+    parts = grid.knots / np.array(grid.intervals)
+    own, knots = _own_knots(grid, closed, tip)
+    ends, bars = _own_bars(grid, knots, closed)
+    prefix = f"{name}:" if name else ""
+    labels = [f"{prefix}{i}-{j}" for i, j in grid.knots[own].tolist()]
+    positions, held = surface(parts[own]), grid.held(fixed, closed=closed)[own]
+    n, s = len(own), netting.segments
+    inner, chains = _segments(ends, n, s)
+    share = (np.arange(1, s) / s)[None, :, None]
+    between = positions[ends[:, :1]] * (1.0 - share) + positions[ends[:, 1:]] * share
+    labels += [
+        f"{prefix}{labels[a].removeprefix(prefix)}>{labels[b].removeprefix(prefix)}.{k}"
+        for a, b in (ends.tolist() if s > 1 else ())
+        for k in range(1, s)
+    ]
+    inner_count, m = inner.size, len(ends) * s
+    twine, density = netting.twine, netting.knot_density
+    where = Panel(
+        name=name,
+        shape=shape,
+        mesh=netting.mesh,
+        meshes=meshes,
+        size=size,
+        bar_length=netting.bar_length,
+        knot_diameter=netting.knot_diameter,
+        twine=twine.name,
+        closed=closed,
+        knots=knots,
+        bars=np.arange(m).reshape(-1, s)[bars],
+    )
+    return Net(
+        positions=np.concatenate([positions, between.reshape(-1, 3)]),
+        labels=tuple(labels),
+        fixed=np.concatenate([held, np.zeros(inner_count, dtype=bool)]),
+        bars=chains,
+        rest_length=np.full(m, netting.bar_length / s),
+        twines=(twine,),
+        twine_of_bar=np.zeros(m, dtype=np.int64),
+        knot_diameter=np.concatenate([np.full(n, netting.knot_diameter), np.zeros(inner_count)]),
+        knot_density=np.concatenate(
+            [np.full(n, twine.density if density is None else density), np.full(inner_count, twine.density)]
+        ),
+        load=np.zeros((n + inner_count, 3)),
+        panels=(where,),
+    )
+
+
+def _own_knots(grid: Lattice, closed: bool, tip: bool) -> tuple[Indices, Indices]:
+    """Lattice knots that become knots of the net (n,), and the knot of the net at every lattice knot (k,)."""
+    i, j = grid.knots.T
+    column = np.where(closed & (i == grid.intervals[0]), 0, i)
+    column[tip & (j == 0)] = 0
+    own = np.flatnonzero(column == i)
+    index = np.full((grid.intervals[0] + 1, grid.intervals[1] + 1), -1, dtype=np.int64)
+    index[i[own], j[own]] = np.arange(len(own))
+    return own, index[column, j]
+
+
+def _own_bars(grid: Lattice, knots: Indices, closed: bool) -> tuple[Indices, Indices]:
+    """Ends (m, 2) of the bars of the net, and the bar of the net at every lattice bar (b,).
+
+    Bars along the last column of closed netting are those along the first.
+    """
+    i, j = grid.knots[:, 0][grid.bars], grid.knots[:, 1][grid.bars]
+    again = closed & (i == grid.intervals[0]).all(axis=1)
+    own = np.flatnonzero(~again)
+    which = np.empty(len(grid.bars), dtype=np.int64)
+    which[own] = np.arange(len(own))
+    seam = np.flatnonzero((i == 0).all(axis=1))
+    order = seam[np.argsort(j[seam].min(axis=1), kind="stable")]
+    which[again] = which[order[np.searchsorted(j[order].min(axis=1), j[again].min(axis=1))]]
+    return knots[grid.bars[own]], which
+
+
+def _segments(ends: Indices, first: int, segments: int) -> tuple[Indices, Indices]:
+    """Knots within the bars (m, s - 1), numbered from first on, and the ends of all segments (m s, 2)."""
+    inner = first + np.arange(len(ends) * (segments - 1)).reshape(len(ends), segments - 1)
+    chain = np.column_stack([ends[:, 0], inner, ends[:, 1]])
+    return inner, np.stack([chain[:, :-1], chain[:, 1:]], axis=2).reshape(-1, 2)
