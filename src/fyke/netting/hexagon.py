@@ -102,7 +102,8 @@ class Hexagon:
         index = np.full((ends[0] + 1, ends[1] + 1), -1, dtype=np.int64)
         index[places[:, 0], places[:, 1]] = np.arange(len(places))
         bars = []
-        for step in ((1, 1), (1, -1), (0, 1)):
+        steps: tuple[tuple[int, int], ...] = ((1, 1), (1, -1), (0, 1))
+        for step in steps:
             di, dj = step[::-1] if self.turned else step
             i, j = places[:, 0] + di, places[:, 1] + dj
             there = (i >= 0) & (i <= ends[0]) & (j >= 0) & (j <= ends[1])

@@ -20,11 +20,12 @@ Side = Literal["top", "bottom", "left", "right"]
 class Panel:
     """Where one piece of netting lies within a Net, for plan views and derived figures.
 
-    shape: "panel" for a flat one, "cylinder", "cone" ...; mesh: "diamond" | "square" | "hexagonal"; meshes: along width
-    and height; size: width and height laid flat (m); bar_length: unloaded, knot centre to knot centre (m);
-    knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of netting.lattice's knots and bars: knots: (k,)
-    knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of hexagons: long_bar: m, unloaded,
-    bar_length being that of the slanted ones; turned: the long bars lie along the width (T90).
+    shape: "panel" for a flat one, "cylinder", "cone" ...; mesh: "diamond" | "square" | "hexagonal"; meshes: along
+    width and height; size: width and height laid flat (m); bar_length: unloaded, knot centre to knot centre (m);
+    knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of the knots and bars of
+    netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
+    hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
+    width (T90).
     """
 
     name: str

@@ -24,8 +24,9 @@ Surface = Callable[[Array, Array], Array]
 class Netting:
     """What netting is made of.
 
-    mesh: kind; bar_length: m, knot centre to knot centre, unloaded, of hexagons the slanted bars;
-    knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when None; segments: straight pieces that a bar is cut into, so that it can bow.
+    mesh: kind; bar_length: m, knot centre to knot centre, unloaded, of hexagons the slanted bars; knot_diameter: m,
+    0 for knotless; knot_density: kg/m3, the twine's when None; segments: straight pieces that a bar is cut into, so
+    that it can bow.
     """
 
     twine: Twine
