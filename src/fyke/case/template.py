@@ -58,6 +58,7 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "quadratic", c1 = "1160 N", c2 = "37.3 kN" }
 # law = { kind = "table", strain = [0.0, 0.05, 0.1], tension = [0.0, 20.0, 60.0] }   # N
 # damping_time = "20 us"             # Kelvin-Voigt retardation time; by default from the loss factor of the material
+# breaking_strength = "250 N"          # of one twine, wet and knotted; the largest tension is compared with it
 
 # [material.own]                     # a material of your own, material = "own" in a twine
 # density = 1140.0                   # kg/m3
