@@ -33,7 +33,7 @@ def frustum(
     low, high = diameters
     if not (min(low, high) >= 0.0 and max(low, high) > 0.0 and height >= 0.0):
         raise ValueError(f"diameters {low:g} and {high:g} m and a height of {height:g} m make no frustum")
-    if min(low, high) == 0.0 and (netting.mesh == "square" or high == 0.0):
+    if min(low, high) == 0.0 and (netting.mesh != "diamond" or high == 0.0):
         raise ValueError("only diamond netting is gathered in a tip, and below: give the rim a diameter")
     if height == 0.0 and low == high:
         raise ValueError(f"two rims of {low:g} m at the same height have no netting between them")
