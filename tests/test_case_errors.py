@@ -197,10 +197,20 @@ SPOILT = {
         '"edge"',
         ("[[gear]] 1 fixed", '"edge"', '"corners"', 'did you mean "edges"?'),
     ),
-    "hexagonal mesh": (
+    "hexagonal mesh without its long bars": (
         '"diamond"',
         '"hexagonal"',
-        ("line 9, [netting.main] mesh", '"hexagonal"', '"diamond" or "square"', "not built yet"),
+        ("[netting.main] long_bar", "nothing", "four bars of bar_length", 'add long_bar = "45 mm"'),
+    ),
+    "long bars of diamonds": (
+        '"diamond"',
+        '"diamond"\nlong_bar = "45 mm"',
+        ("line 10, [netting.main] long_bar", "diamond mesh", "hexagonal", "leave it out"),
+    ),
+    "mesh unknown": (
+        '"diamond"',
+        '"hexagon"',
+        ("line 9, [netting.main] mesh", '"hexagon"', '"square"', 'did you mean "hexagonal"?'),
     ),
     "material unknown": (
         '"PA"',

@@ -202,6 +202,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [
                 old for old in shown if not old.startswith({"law": "youngs", "hanging_ratio": "size"}[key])
             ]
+        if key == "long_bar":
+            shown = [old.replace('mesh = "diamond"', 'mesh = "hexagonal"') for old in shown]
         if key == "packing":
             shown = [
                 old.removeprefix("# ") if "rtex =" in old else old

@@ -337,3 +337,97 @@ def test_bars_of_segments_keep_their_lengths():
     lengths = np.linalg.norm(np.diff(cut.positions[cut.bars], axis=1)[:, 0], axis=1)
     assert lengths == pytest.approx(cut.rest_length, rel=1e-12)
     assert panel.bars.shape == (whole.bar_count, 3)
+
+
+CASE = """
+schema = 1
+[current]
+velocity = [0.3, 0.0, 0.0]
+[twine.main]
+material = "PA"
+diameter = "1.5 mm"
+[netting.main]
+twine = "main"
+mesh = "hexagonal"
+bar_length = "30 mm"
+long_bar = "45 mm"
+orientation = "T0"
+[[gear]]
+name = "net"
+kind = "panel"
+netting = "main"
+meshes = [6, 4]
+hanging_ratio = 0.7
+centre = [0.0, 0.0, -1.0]
+"""
+CYLINDER = CASE.replace('"panel"', '"cylinder"').replace("[6, 4]", "[24, 4]").replace("centre", "top")
+
+
+def told(text):
+    with pytest.raises(fyke.CaseError) as error:
+        fyke.parse_case(text, "c.toml")
+    return [(one.where, one.found, one.allowed, one.cure) for one in error.value.problems]
+
+
+@BOTH
+def test_panel_of_a_case_is_that_made_by_hand(turned):
+    ratio = '[0.8, 0.7]\nfixed = "corners"' if turned else '0.7\nfixed = "corners"'
+    text = CASE.replace('"T0"', '"T90"' if turned else '"T0"').replace("0.7", ratio, 1)
+    case = fyke.parse_case(text)
+    net = fyke.build_net(case)
+    kind = hexagon(turned)
+    ratios = (0.8, 0.7) if turned else (0.7, (LONG + SIDE * np.sqrt(0.51)) / (LONG + SIDE))
+    size = hung_size(kind, (6, 4), SIDE, ratios)
+    want = fyke.panel(
+        case.twines["main"],
+        mesh=kind,
+        meshes=(6, 4),
+        bar_length=SIDE,
+        size=size,
+        centre=(0.0, 0.0, -1.0),
+        fixed="corners",
+        name="net",
+    )
+    assert np.array_equal(net.bars, want.bars) and np.array_equal(net.fixed, want.fixed)
+    assert net.positions == pytest.approx(want.positions, abs=1e-14)
+    assert net.rest_length == pytest.approx(want.rest_length, rel=1e-15)
+    assert np.count_nonzero(net.fixed) == 4
+    assert fyke.solve_static(fyke.build_system(net, case)).outcome.ok
+
+
+@pytest.mark.parametrize("gear", [CASE, CYLINDER], ids=["panel", "cylinder"])
+def test_check_counts_edges_and_knows_knots_as_the_net_has_them(gear, capsys, tmp_path):
+    from fyke.cli.check import judge
+
+    case = fyke.parse_case(gear)
+    net = fyke.build_net(case)
+    netting, sheet = case.netting["main"], case.gear[0].sheets(case.netting["main"])[0]
+    panel = net.panels[0]
+    for side in sheet.edges:
+        assert sheet.edge(side, netting.mesh)[0] == len(np.unique(panel.edge(side)))
+    labels = set(net.labels)
+    for i in range(sheet.last(netting.mesh)[0] + 2):
+        for j in range(sheet.last(netting.mesh)[1] + 2):
+            assert sheet.has(i, j, netting.mesh) == (f"net:{i}-{j}" in labels), (i, j)
+    found = judge(case)["panels"][0]
+    assert found["mesh"] == "hexagonal"
+    assert found["strain"] == pytest.approx(0.0, abs=1e-12)
+
+
+def test_hexagons_that_cannot_close_are_told_in_words():
+    (where, found, allowed, cure), *more = told(
+        CYLINDER.replace('"T0"', '"T90"').replace("0.7", "[0.8, 0.7]")
+    )
+    assert not more
+    assert "[[gear]] 1 netting" in where and "long bars round the cylinder" in found
+    assert "along the height" in allowed and 'orientation = "T0" in [netting.main]' in cure
+    bottom = CYLINDER + 'bottom = { meshes = 4, depth = "0.2 m" }\n'
+    (where, found, allowed, cure), *more = told(bottom)
+    assert not more
+    assert "bottom" in where and "hexagonal netting" in found and "diamond netting" in allowed
+
+
+def test_one_ratio_that_leaves_turned_hexagons_slack_is_told_in_words():
+    """Their long bars alone are 45 of 75 mm, 0.6."""
+    ((where, found, allowed, cure),) = told(CASE.replace('"T0"', '"T90"').replace("0.7", "0.55"))
+    assert "hanging_ratio" in where and "0.55" in found and "at least 0.6" in allowed and "T0" in cure

@@ -125,6 +125,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     for name, keys in parts.tables("netting"):
         there = [one for one, _ in parts.items("twine")]
         yield from reference(("netting", name, "twine"), keys, "twine", there)
+        yield from _long_bar(("netting", name, "long_bar"), keys)
     for name, _ in parts.tables("material"):
         if name in MATERIALS:
             allowed = "a name of its own: " + ", ".join(MATERIALS) + " are there already"
@@ -206,6 +207,15 @@ def _twine_keys(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Find
         found = f"no modulus, and none is known for {name}" if name else "neither youngs_modulus nor material"
         allowed, cure = "youngs_modulus, Pa, or a law", 'add youngs_modulus = "1.0 GPa" or a law'
         yield (*path, "youngs_modulus"), found, allowed, cure
+
+
+def _long_bar(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
+    if keys.get("mesh") == "hexagonal" and "long_bar" not in keys:
+        allowed = "long_bar, m: hexagons have four bars of bar_length and two of long_bar"
+        yield path, "nothing", allowed, 'add long_bar = "45 mm"'
+    if keys.get("mesh") in ("diamond", "square") and "long_bar" in keys:
+        found = f"long_bar with {keys['mesh']} mesh"
+        yield path, found, "long_bar of hexagonal mesh", 'leave it out, or write mesh = "hexagonal"'
 
 
 def _thickness_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:

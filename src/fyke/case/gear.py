@@ -5,36 +5,39 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import numpy as np
-from pydantic import BeforeValidator, Field, PrivateAttr
+from pydantic import Field, PrivateAttr
 
-from ..netting.lattice import Edge, MeshKind, flat_strain, hung_size
+from ..netting.hexagon import Hexagon
+from ..netting.lattice import Edge, Mesh, flat_strain, hung_size, taut_ratios
 from ..netting.net import Net, Side
 from ..netting.panel import panel, panel_axes
 from ..netting.twine import Twine
 from .fields import Density, Direction, HangingRatio, Length, MeshCount, Name, Point, Table, whole
-from .quantity import wrong
 
 MOST_SEGMENTS = 50
 LARGEST_STRAIN = 0.2  # of unloaded bars in the net as built
-
-
-def _refuse_hexagonal(value: Any) -> Any:
-    if value == "hexagonal":
-        raise wrong('"diamond" or "square"', "hexagonal mesh is not built yet; choose one of these two")
-    return value
 
 
 class NettingSpec(Table):
     """One kind of netting: a twine tied into meshes."""
 
     twine: Name = Field(description="name of a [twine.NAME]", examples=["main"])
-    mesh: Annotated[MeshKind, BeforeValidator(_refuse_hexagonal)] = Field(
-        description="shape of the meshes", examples=["diamond"]
+    mesh_name: Literal["diamond", "square", "hexagonal"] = Field(
+        alias="mesh", description="shape of the meshes", examples=["diamond"]
     )
-    bar_length: Length = Field(description="m, knot centre to knot centre, unloaded", examples=["30 mm"])
+    bar_length: Length = Field(
+        description="m, knot centre to knot centre, unloaded; of hexagons the slanted bars",
+        examples=["30 mm"],
+    )
+    long_bar: Length | None = Field(
+        default=None, description="m, of hexagons, knot centre to knot centre, unloaded", examples=["45 mm"]
+    )
+    orientation: Literal["T0", "T90"] = Field(
+        default="T0", description="long bars of hexagons along the height (T0) or the width (T90)"
+    )
     knot_diameter: Length | None = Field(
         default=None, description="m; leave out for knotless netting", examples=["3.5 mm"]
     )
@@ -44,6 +47,13 @@ class NettingSpec(Table):
     segments: Annotated[int, *whole(1, MOST_SEGMENTS)] = Field(
         default=1, description="straight pieces that a bar is cut into, so that it can bow", examples=[2]
     )
+
+    @property
+    def mesh(self) -> Mesh:
+        """The kind of mesh, as functions of netting.lattice take it; long bars that are not given as the others."""
+        if self.mesh_name == "hexagonal":
+            return Hexagon((self.long_bar or self.bar_length) / self.bar_length, self.orientation == "T90")
+        return self.mesh_name
 
 
 @dataclass(frozen=True)
@@ -76,25 +86,38 @@ class Sheet:
         width = self.size[0] if self.rims is None else pi * max(self.rims)
         return max(flat_strain(netting.mesh, self.meshes, netting.bar_length, (width, self.size[1])))
 
-    def edge(self, side: Side) -> tuple[int, float]:
-        """Return how many knots an edge has, and how long (m) it is from knot to knot."""
+    def edge(self, side: Side, mesh: Mesh) -> tuple[int, float]:
+        """Return how many knots an edge has, and how long (m) it is from knot to knot; of hexagons at most."""
         if self.rims is None:
             along = 0 if side in ("top", "bottom") else 1
+            if isinstance(mesh, Hexagon):
+                return mesh.knots_along(self.meshes, along, last=side in ("top", "right")), self.size[along]
             return self.meshes[along] + 1, self.size[along]
         diameter, around = self.rims[1 if side == "top" else 0], self.meshes[0]
         return (around, around * diameter * sin(pi / around)) if diameter else (1, 0.0)
 
-    def has(self, i: int, j: int, mesh: MeshKind) -> bool:
-        """Whether it has a knot i-j of its own."""
+    def last(self, mesh: Mesh) -> tuple[int, int]:
+        """Return the largest column and row of its own knots."""
         steps = 2 if mesh == "diamond" else 1
-        last = (steps * self.meshes[0] - (self.rims is not None), steps * self.meshes[1] - self.sewn)
-        there = i <= last[0] and j <= last[1] and (mesh == "square" or (i + j) % 2 == 0)
-        return there and not (self.tip and j == 0 and i > 0)
+        i, j = (
+            mesh.last(self.meshes)
+            if isinstance(mesh, Hexagon)
+            else (steps * self.meshes[0], steps * self.meshes[1])
+        )
+        return i - (self.rims is not None), j - self.sewn
+
+    def has(self, i: int, j: int, mesh: Mesh) -> bool:
+        """Whether it has a knot i-j of its own."""
+        last = self.last(mesh)
+        knot = mesh.has(i, j) if isinstance(mesh, Hexagon) else mesh == "square" or (i + j) % 2 == 0
+        return i <= last[0] and j <= last[1] and knot and not (self.tip and j == 0 and i > 0)
 
 
-def ratios(hanging: float | tuple[float, float]) -> tuple[float, float]:
-    """Return E1 and E2; one number is E1 of diamond netting whose bars are just taut."""
-    return hanging if isinstance(hanging, tuple) else (hanging, sqrt(1.0 - hanging**2))
+def ratios(hanging: float | tuple[float, float], mesh: Mesh) -> tuple[float, float]:
+    """Return E1 and E2; one number is E1 of netting whose bars are just taut, of diamonds where none can be."""
+    if isinstance(hanging, tuple):
+        return hanging
+    return taut_ratios(mesh, hanging) or (hanging, sqrt(1.0 - hanging**2))
 
 
 class Part(Table):
@@ -164,7 +187,7 @@ class PanelSpec(Piece):
     )
     hanging_ratio: HangingRatio | None = Field(
         default=None,
-        description="instead of size: E1 (diamond mesh, E2 = sqrt(1 - E1^2)) or [E1, E2], width and height "
+        description="instead of size: E1 (bars just taut; diamonds E2 = sqrt(1 - E1^2)) or [E1, E2], width and height "
         "over the fully stretched ones",
         examples=[0.6],
     )
@@ -224,4 +247,6 @@ class PanelSpec(Piece):
         """Return width and height (m) of the frame when hung with this netting."""
         if self.given_size is not None:
             return self.given_size
-        return hung_size(netting.mesh, self.meshes, netting.bar_length, ratios(self.hanging_ratio or 0.0))
+        return hung_size(
+            netting.mesh, self.meshes, netting.bar_length, ratios(self.hanging_ratio or 0.0, netting.mesh)
+        )

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from math import inf, pi
 from typing import TYPE_CHECKING, Any, cast
 
+from ..netting.hexagon import Hexagon
+from ..netting.lattice import taut_ratios
 from .gear import LARGEST_STRAIN, NettingSpec, PanelSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
@@ -107,15 +109,20 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if isinstance(piece, CylinderSpec | ConeSpec):
         yield from _one_round_size(path, piece)
         yield from _closing_ratio(path, piece, netting)
-    if netting is None or netting.mesh != "square":
+    if netting is not None and isinstance(netting.mesh, Hexagon) and netting.mesh.turned:
+        found = f"hexagons with their long bars round {piece.called}"
+        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
+        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    if netting is None or netting.mesh == "diamond":
         return
-    allowed = "diamond netting, which can be gathered in one knot; square netting has bars round its edge"
+    allowed = "diamond netting, which can be gathered in one knot"
+    allowed += "; square netting has bars round its edge" * (netting.mesh == "square")
     if isinstance(piece, ConeSpec):
         cure = f'write mesh = "diamond" in [netting.{piece.netting}], or kind = "frustum"'
-        yield (*path, "kind"), f"{piece.called} of square netting", allowed, cure
+        yield (*path, "kind"), f"{piece.called} of {netting.mesh_name} netting", allowed, cure
     if piece.floor is not None:
         cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
-        yield (*path, "bottom"), f"a bottom of square netting in {piece.called}", allowed, cure
+        yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
 
 
 def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
@@ -139,8 +146,8 @@ def _closing_ratio(
         allowed = "E1 and E2 above 0 and at most 1: netting is never longer than stretched"
         cure = "0.5 to 0.8 is common for E1; E2 = sqrt(1 - E1^2) just straightens the bars of diamonds"
         yield key, f"{written(list(ratio))} of {piece.called}", allowed, cure
-    elif isinstance(ratio, float) and netting.mesh == "square":
-        yield from _square_pair(path, ratio)
+    elif isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
+        yield from _pair(path, ratio, netting)
     elif isinstance(piece, ConeSpec) and piece.rims(netting) is None:
         around, slant = piece.flat_size(netting)
         found = f"{written(ratio)}: the netting of {piece.called} is {slant:.4g} m from rim to tip"
@@ -148,7 +155,13 @@ def _closing_ratio(
         yield key, found, allowed, "make E1 smaller, or give it fewer meshes around or more along the height"
 
 
-def _square_pair(path: Path, ratio: float) -> Iterator[Finding]:
+def _pair(path: Path, ratio: float, netting: NettingSpec) -> Iterator[Finding]:
+    """What is wrong with one hanging ratio where no other one makes every bar just taut."""
+    if isinstance(netting.mesh, Hexagon):
+        long = netting.mesh.long_bar
+        allowed = f"at least {long / (1.0 + long):.4g}, where the slanted bars lie across, or [E1, E2]"
+        yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, 'give both, or write orientation = "T0"'
+        return
     allowed = "[E1, E2] for square mesh, width and height over the stretched ones"
     yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, f"write hanging_ratio = [{ratio:g}, {ratio:g}]"
 
@@ -159,9 +172,9 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
     ratio = getattr(piece, "hanging_ratio", None)
     if isinstance(ratio, tuple) and max(ratio) > 1.0 and isinstance(piece, RoundSpec):
         return  # told already
-    if netting.mesh == "square" and isinstance(ratio, float):
+    if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
         if isinstance(piece, PanelSpec):
-            yield from _square_pair(path, ratio)
+            yield from _pair(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
         if sheet.strain(netting) > LARGEST_STRAIN:
@@ -212,7 +225,7 @@ def _along(
         return
     if name not in sheets:
         return  # wrong itself, and told
-    sheet, _ = sheets[name]
+    sheet, netting = sheets[name]
     if side not in sheet.edges:
         allowed = f"an edge of '{name}': {' or '.join(sheet.edges)}"
         if sheet.rims:
@@ -220,7 +233,7 @@ def _along(
         near = nearest(side, sheet.edges) or sheet.edges[1]
         yield key, f"{written(along)} of {what}", allowed, f'did you mean "{name}.{near}"?'
         return
-    yield sheet.edge(side)
+    yield sheet.edge(side, netting.mesh)
 
 
 def _rope(
@@ -300,10 +313,10 @@ def _knot(
     elif name in sheets:
         sheet, netting = sheets[name]
         if not sheet.has(int(match[2]), int(match[3]), netting.mesh):
-            steps = 2 if netting.mesh == "diamond" else 1
-            last = (steps * sheet.meshes[0] - bool(sheet.rims), steps * sheet.meshes[1] - sheet.sewn)
+            last = sheet.last(netting.mesh)
             allowed = f"a knot of '{name}': columns 0 to {last[0]}, rows 0 to {last[1]} from below"
-            allowed += "; of diamond netting those whose sum is even" * (steps == 2)
+            allowed += "; of diamond netting those whose sum is even" * (netting.mesh == "diamond")
+            allowed += "; of hexagons every other one" * (netting.mesh_name == "hexagonal")
             allowed += "; its tip is 0-0" * sheet.tip
             yield path, found, allowed, "choose a knot that is there; knots.csv of a run lists them"
 

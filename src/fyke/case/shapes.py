@@ -136,7 +136,9 @@ class _ByRatioSpec(RoundSpec):
 
     def flat_size(self, netting: NettingSpec) -> tuple[float, float]:
         """Mean way round and slant height (m) by the hanging ratio."""
-        return hung_size(netting.mesh, self.meshes, netting.bar_length, ratios(self.hanging_ratio or 0.0))
+        return hung_size(
+            netting.mesh, self.meshes, netting.bar_length, ratios(self.hanging_ratio or 0.0, netting.mesh)
+        )
 
 
 class CylinderSpec(_ByRatioSpec):

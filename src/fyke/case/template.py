@@ -68,9 +68,11 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 
 [netting.main]                       # any number of nettings, each with a name
 twine = "main"
-mesh = "diamond"                     # diamond | square
+mesh = "diamond"                     # diamond | square | hexagonal
 bar_length = "30 mm"                 # knot centre to knot centre, unloaded
 knot_diameter = "3.5 mm"             # leave out for knotless netting
+# long_bar = "45 mm"                 # of hexagons, whose bar_length is that of the slanted bars
+# orientation = "T0"                 # of hexagons: long bars along the height (T0) or the width (T90)
 # knot_density = 1140.0              # kg/m3, the twine's by default
 # segments = 2                       # straight pieces of every bar, so that it can bow; 1 by default
 

@@ -141,7 +141,7 @@ def _panel(
         "name": panel.name,
         "shape": panel.shape,
         "netting": next(name for name, spec in case.netting.items() if spec is netting),
-        "mesh": netting.mesh,
+        "mesh": netting.mesh_name,
         "meshes": list(panel.meshes),
         "segments": netting.segments,
         "size": list(panel.size),

@@ -32,6 +32,23 @@ class Hexagon:
         """From width and height to across and along, or back."""
         return (pair[1], pair[0]) if self.turned else pair
 
+    def last(self, meshes: tuple[int, int]) -> tuple[int, int]:
+        """Return the largest i and j."""
+        columns, rows = self.counts(meshes)
+        return (2 * rows + 1, 2 * columns) if self.turned else (2 * columns, 2 * rows + 1)
+
+    def knots_along(self, meshes: tuple[int, int], axis: int, *, last: bool) -> int:
+        """Count the knots of an edge along an axis, 0: width, 1: height; last: of the upper or right edge."""
+        columns, rows = self.counts(meshes)
+        if axis == (1 if self.turned else 0):
+            return columns + int(last and rows % 2 == 0)
+        return rows + 1
+
+    def has(self, i: int, j: int) -> bool:
+        """Whether there is a knot (i, j), within the largest i and j."""
+        across, along = (j, i) if self.turned else (i, j)
+        return along % 2 == (across + along // 2 + 1) % 2
+
     def counts(self, meshes: tuple[int, int]) -> tuple[int, int]:
         """Hexagons across, and rows of them along."""
         return (meshes[1], meshes[0]) if self.turned else meshes
@@ -97,7 +114,7 @@ class Hexagon:
         across, zigzag = (a.ravel() for a in np.indices((2 * columns + 1, rows + 1)))
         along = 2 * zigzag + (across + zigzag + 1) % 2
         places = np.column_stack([along, across] if self.turned else [across, along])
-        ends = (2 * rows + 1, 2 * columns) if self.turned else (2 * columns, 2 * rows + 1)
+        ends = self.last(meshes)
         places = places[np.lexsort((places[:, 1], places[:, 0]))]
         index = np.full((ends[0] + 1, ends[1] + 1), -1, dtype=np.int64)
         index[places[:, 0], places[:, 1]] = np.arange(len(places))

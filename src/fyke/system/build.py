@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..case.schema import Case
+from ..netting.faces import faces_of
 from ..netting.net import Net
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
@@ -131,6 +132,7 @@ def make_system(
         displaced=Displaced(0.5 * w.density * volume, w.density * knot_volume),
         waves=waves,
         surface=surface or waves is not None,
+        faces=faces_of(net) if c.screens or c.wake or c.twines else None,
         sources=_sources(net, c, damping, waves),
     )
 
