@@ -25,37 +25,13 @@ from .laws import coefficients_of_bars, coefficients_of_knots
 from .screens import Screens
 from .shelter import Shelter
 from .total import TINY_LENGTH
+from .wetness import add_wetting, wet_parts
 
 Array = NDArray[np.float64]
+Places = NDArray[np.int64]
 
-
-@njit(**OPTIONS)
-def _immersed(depth, radius):
-    """Integral over depth (m) of the part of a round body of this radius (m) that is under water, taken as a ramp."""
-    if depth >= radius:
-        return depth
-    return (depth + radius) ** 2 / (4.0 * radius) if depth > -radius else 0.0
-
-
-@njit(**OPTIONS)
-def wet_parts(z, elevation, el, bar_radius, knot_radius, bars, knots):
-    """Part under water of every bar into bars (m,) and of every knot, or what hangs there, into knots (n,), spheres.
-
-    z, elevation: (n,) m, heights of the knots and of the surface above them; a bar is the mean along its length.
-    """
-    for i in range(z.shape[0]):
-        depth, r = elevation[i] - z[i], max(knot_radius[i], TINY_LENGTH)
-        part = min(max(0.5 * (depth + r) / r, 0.0), 1.0)
-        # The volume of a spherical cap over that of the sphere.
-        knots[i] = part * part * (3.0 - 2.0 * part)
-    for e in range(bar_radius.shape[0]):
-        a, b = el.knot_a[e], el.knot_b[e]
-        low, high = elevation[a] - z[a], elevation[b] - z[b]
-        r = bar_radius[e]
-        if abs(high - low) > 1e-6 * r:
-            bars[e] = (_immersed(high, r) - _immersed(low, r)) / (high - low)
-        else:
-            bars[e] = min(max(0.5 * (low + r) / r, 0.0), 1.0)
+# Span of heights, over the shortest bar, in which the change of a current with height is found.
+SPAN = 1e-5
 
 
 @njit(**OPTIONS)
@@ -110,6 +86,7 @@ class Surroundings:
             np.maximum.at(self._radius[1], bodies.knots, 0.5 * bodies.diameter)
         self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
         self._by_angle = not c.bar_mass.constant
+        self._depth: Array | None = None
         self.faces = system.faces
         self.screens: Screens | None = None
         self._shelter: Shelter | None = None
@@ -164,6 +141,35 @@ class Surroundings:
         u = self.system.current.velocity(x, time)
         return u if self._shelter is None else self.left * u
 
+    def shear(self, x: Array, time: float) -> Array | None:
+        """Change of the current with height at knots x (n, 3) m, sheltered, (n, 3) 1/s; None where it has none."""
+        if self.system.current.uniform:
+            return None
+        half = np.array([0.0, 0.0, 0.5 * SPAN * float(self.system.elements.rest_length.min(initial=1.0))])
+        change = self.velocity(x + half, time) - self.velocity(x - half, time)
+        return np.asarray(change / (2.0 * half[2]))
+
+    def add_wetting(
+        self,
+        rel: Array,
+        el: Elements,
+        t: Array,
+        length: Array,
+        places: tuple[Places, Places, Places],
+        *,
+        symmetric: bool,
+        data: Array,
+    ) -> None:
+        """Add to -dF/dx what changes with the wet parts of the net as the last `at` saw it.
+
+        Arguments as of `load`; places: start, stride, diagonal of solve.pattern.Pattern, to which the data of the
+        matrix belong; symmetric: add the symmetric part alone.
+        """
+        if self._depth is not None:
+            displaced, g = self.system.displaced, self.system.water.gravity
+            sizes = *self._radius, g * displaced.bar, g * displaced.knot
+            add_wetting(self._depth, rel, el, sizes, (t, length), symmetric, places, data)
+
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).
 
@@ -179,7 +185,7 @@ class Surroundings:
         if waves is not None:
             u = u + waves.velocity
         el = self._added_by_angle(x, u - v) if self._by_angle else system.elements
-        displaced = system.displaced
+        displaced, self._depth = system.displaced, None
         if waves is not None or self.near_surface(x, 0.0):
             el, displaced = self._wetted(el, x, np.zeros(len(x)) if waves is None else waves.elevation)
         if waves is not None:
@@ -201,10 +207,12 @@ class Surroundings:
     def _wetted(self, el: Elements, x: Array, elevation: Array) -> tuple[Elements, Displaced]:
         """Drag, added mass and buoyancy of what is under water, and the water that it displaces."""
         system, whole = self.system, self.system.displaced
-        if float((x[:, 2] - elevation).max(initial=-np.inf)) < -self._reach:
+        depth = elevation - x[:, 2]
+        if float(depth.min(initial=np.inf)) > self._reach:
             return el, whole
+        self._depth = depth
         bars, knots = np.empty(len(el.rest_length)), np.empty(len(x))
-        wet_parts(np.ascontiguousarray(x[:, 2]), elevation, el, *self._radius, bars, knots)
+        wet_parts(depth, el, *self._radius, bars, knots)
         displaced = Displaced(bars * whole.bar, knots * whole.knot)
         lost = whole.knot - displaced.knot
         added = system.coefficients.added_mass_knot * lost
