@@ -51,7 +51,7 @@ def test_value_in_si_is_the_nearest_double(kind, text, si):
 @pytest.mark.parametrize(
     ("kind", "text", "cure"),
     [
-        (units.LENGTH, "30 kg", "'kg' is no length"),
+        (units.LENGTH, "30 kg", "'kg' is a unit of mass, and a length is asked"),
         (units.LENGTH, "30 kPa", "'kPa' is a unit of pressure"),
         (units.LENGTH, "30 MM", 'did you mean "30 mm"?'),
         (units.LENGTH, "3 fathoms", 'did you mean "3 fathom"?'),

@@ -39,7 +39,13 @@ def test_run_writes_the_files_of_the_contract_into_a_folder_named_after_the_case
     done = fyke("run", case, "--no-figures")
     assert done.exit_code == 0
     folder = case.parent / "small"
-    assert {file.name for file in folder.iterdir()} == {"result.nc", "summary.json", "knots.csv", "bars.csv"}
+    assert {file.name for file in folder.iterdir()} == {
+        "result.nc",
+        "summary.json",
+        "knots.csv",
+        "bars.csv",
+        "parts.csv",
+    }
     figures = json.loads((folder / "summary.json").read_text())
     assert set(CONTRACT) <= figures.keys() and figures["outcome"] == "converged"
     with (folder / "knots.csv").open() as file:

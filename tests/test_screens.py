@@ -9,11 +9,15 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 import fyke
+from fyke.forces.bars import bar_geometry
 from fyke.forces.screen_faces import DENSE, DENSEST, add_screens
-from fyke.forces.screen_laws import HIGHEST_REYNOLDS, LOWEST_REYNOLDS, in_tables
+from fyke.forces.screen_laws import in_tables
 from fyke.forces.screens import Screens
+from fyke.forces.surroundings import Surroundings
+from fyke.forces.wetness import wet_faces
 from fyke.netting.faces import Faces, faces_of
 from fyke.solve.pattern import Pattern
+from fyke.system.curves import HIGHEST_REYNOLDS, LOWEST_REYNOLDS
 from fyke.water.laws import LAWS, PanelLaw, cylinder, joints, measured, outside
 from fyke.water.laws.panels import LEE_WIDTH, Aarsnes, Balash, Fridman, KristiansenFaltinsen, Lee, Loland
 
@@ -466,6 +470,52 @@ def test_the_assembled_matrix_against_differences_of_the_load(law, mesh, flat):
     twice = np.ones(len(pattern.indices))
     screens.assemble(x, rel, 0.7, 0.3, pattern.groups, symmetric=True, data=twice)
     assert twice - 1.0 == pytest.approx(data, abs=1e-12 * np.abs(data).max() + 1e-15)
+
+
+# The surface
+
+
+@pytest.mark.parametrize("mesh", ["square", "diamond"])
+def test_netting_out_of_the_water_bears_its_wet_part(mesh, flat):
+    """Hung with its middle at the surface half of it is wet, by symmetry; above the water nothing, below everything."""
+    net = flat(mesh, (6, 5))
+    law = fyke.Coefficients(screens=Loland())
+    system = fyke.make_system(net, current=(0.5, 0.0, 0.0), coefficients=law, surface=True)
+    around, still = Surroundings(system), np.zeros_like(net.positions)
+    mean = 0.5 * (net.positions[:, 2].max() + net.positions[:, 2].min())
+    forces = {}
+    for height in (-3.0, 0.0, 3.0, -2.0):
+        x = net.positions + np.array([0.0, 0.0, height - mean])
+        el, u = around.at(x, still, 0.0)
+        t, length, out = np.empty((net.bar_count, 3)), np.empty(net.bar_count), np.empty_like(x)
+        bar_geometry(x, el, t, length)
+        around.load(x, u, el, t, length, out)
+        forces[height] = out[:, 0].sum()
+    assert forces[-3.0] > 1.0
+    assert forces[0.0] == pytest.approx(0.5 * forces[-3.0], rel=1e-12)
+    assert forces[3.0] == 0.0
+    assert forces[-2.0] == pytest.approx(forces[-3.0], rel=1e-14)
+
+
+@pytest.mark.parametrize(("low", "high", "part"), [(-0.3, 0.1, 0.75), (-0.02, 0.18, 0.1), (0.02, 0.2, 0.0)])
+def test_a_standing_face_is_wet_to_the_surface(low, high, part):
+    """A rectangle of thin twine from z = low to high: both diagonals are under water by the same part."""
+    z = np.array([low, low, high, high])
+    out = np.empty(1)
+    wet_faces(-z, np.arange(4)[None].astype(np.uint32), np.array([1e-6]), out)
+    assert out[0] == pytest.approx(part, abs=1e-5)
+
+
+@every_law
+def test_half_a_face_bears_half_and_resists_half(law):
+    x, rel = quadrangle(), np.tile([0.4, 0.2, -0.1], (4, 1))
+    screens = Screens.of(one_face(), law, DENSITY, VISCOSITY)
+    whole, (by_area, by_speed) = screens.forces(x, rel), (t.copy() for t in screens.tangents(x, rel))
+    screens.wet[:] = 0.5
+    assert np.array_equal(screens.forces(x, rel), 0.5 * whole)
+    found = screens.tangents(x, rel)
+    assert np.array_equal(found[0], 0.5 * by_area) and np.array_equal(found[1], 0.5 * by_speed)
+    assert load(screens, x, rel).sum(axis=0) == pytest.approx(0.5 * whole[0], rel=1e-14)
 
 
 # The pattern

@@ -9,7 +9,7 @@ from .version import __version__
 
 if TYPE_CHECKING:
     from .case import Case, CaseError, load_case, parse_case
-    from .netting.elastic import LinearLaw, PowerLaw, TableLaw
+    from .netting.elastic import LinearLaw, PowerLaw, QuadraticLaw, TableLaw
     from .netting.line import line
     from .netting.net import Net
     from .netting.panel import panel
@@ -45,6 +45,7 @@ _HOME = {
     "Newmark": "solve.implicit",
     "Outcome": "solve.outcome",
     "PowerLaw": "netting.elastic",
+    "QuadraticLaw": "netting.elastic",
     "Result": "solve.result",
     "Settle": "solve.dynamic",
     "State": "system.system",
@@ -82,6 +83,7 @@ __all__ = [
     "Newmark",
     "Outcome",
     "PowerLaw",
+    "QuadraticLaw",
     "Result",
     "Settle",
     "State",

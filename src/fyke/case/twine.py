@@ -1,17 +1,17 @@
-"""Twine in the case file: material, diameter and elastic law."""
+"""Twine in the case file: material, thickness and elastic law."""
 
 from __future__ import annotations
 
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import AfterValidator, Field
+from pydantic import AfterValidator, Field, PrivateAttr
 
-from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, TableLaw
-from ..netting.twine import MATERIALS, Twine
-from .fields import Density, Length, Modulus, Table
+from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, QuadraticLaw, TableLaw
+from ..netting.twine import MATERIALS, PACKING, Material, Twine, diameter_of
+from .fields import Density, Force, Length, Modulus, Share, Table, Title
 from .quantity import Quantity, wrong
-from .units import FORCE, RATIO, TIME
+from .units import FORCE, LINEAR_DENSITY, RATIO, TIME
 
 
 class LinearSpec(Table):
@@ -35,6 +35,20 @@ class PowerSpec(Table):
     def elastic(self) -> ElasticLaw:
         """Return the law of the netting."""
         return PowerLaw(self.c1, self.c2)
+
+
+class QuadraticSpec(Table):
+    """T = c1 strain + c2 strain^2."""
+
+    kind: Literal["quadratic"] = Field(description="kind of elastic law", examples=["quadratic"])
+    c1: Force = Field(description="N, of the twine itself, whatever its diameter", examples=["1160 N"])
+    c2: Annotated[float, Quantity(FORCE, 0.0, 1e9)] = Field(
+        description="N, of the twine itself, whatever its diameter", examples=["37.3 kN"]
+    )
+
+    def elastic(self) -> ElasticLaw:
+        """Return the law of the netting."""
+        return QuadraticLaw(self.c1, self.c2)
 
 
 def _rising(values: tuple[float, ...]) -> tuple[float, ...]:
@@ -61,23 +75,61 @@ class TableSpec(Table):
         return TableLaw(self.strain, self.tension)
 
 
-ElasticSpec = Annotated[LinearSpec | PowerSpec | TableSpec, Field(discriminator="kind")]
-MaterialName = Literal["PA", "PES", "PP", "PE", "UHMWPE"]
+ElasticSpec = Annotated[LinearSpec | PowerSpec | QuadraticSpec | TableSpec, Field(discriminator="kind")]
+
+
+class MaterialSpec(Table):
+    """A material of the user's own."""
+
+    density: Density = Field(description="kg/m3", examples=[1140.0])
+    youngs_modulus: Modulus | None = Field(default=None, description="Pa", examples=["1.0 GPa"])
+    loss_factor: Annotated[float, Quantity(None, 0.0, 10.0)] | None = Field(
+        default=None,
+        description="tan delta, from which twine damping comes; none by default",
+        examples=[0.02],
+    )
+    source: Title = Field(default="", description="one line: where the figures come from")
+
+    def material(self, name: str) -> Material:
+        """Return the material of the netting under this name."""
+        source = self.source or "as the case gives it"
+        return Material(name, self.density, self.youngs_modulus, source, self.loss_factor, source)
 
 
 class TwineSpec(Table):
-    """One twine. The material gives density and modulus where they are left out."""
+    """One twine. The material gives density and modulus where they are left out, rtex the diameter."""
 
-    material: MaterialName | None = Field(default=None, description="fibre", examples=["PA"])
-    density: Density | None = Field(
-        default=None, description="kg/m3, the material's by default", examples=[1140.0]
+    material: str | None = Field(
+        default=None,
+        description=f"fibre: {', '.join(MATERIALS)}, or the name of a [material.NAME]",
+        examples=["PA"],
     )
-    diameter: Length = Field(description="m", examples=["1.5 mm"])
+    density: Density | None = Field(
+        default=None, description="kg/m3, of the fibre; the material's by default", examples=[1140.0]
+    )
+    given_diameter: Length | None = Field(
+        default=None,
+        alias="diameter",
+        description="m, of the outline; from rtex by default",
+        examples=["1.5 mm"],
+    )
+    rtex: Annotated[float, Quantity(LINEAR_DENSITY, 0.0, 100.0, open_below=True, unit_needed=True)] | None = (
+        Field(
+            default=None,
+            description="mass per length; by default that of fibre all through the cross-section",
+            examples=["2000 tex"],
+        )
+    )
+    packing: Share | None = Field(
+        default=None,
+        description=f"share of the cross-section that is fibre, {PACKING:g} by default; with rtex alone",
+        examples=[PACKING],
+    )
     youngs_modulus: Modulus | None = Field(
         default=None, description="Pa, of the linear law; the material's by default", examples=["1.0 GPa"]
     )
     law: ElasticSpec | None = Field(
-        default=None, description="elastic law instead of youngs_modulus: linear, power or table"
+        default=None, description="elastic law instead of youngs_modulus: linear, power, quadratic or table"
     )
     damping_time: Annotated[float, Quantity(TIME, 0.0, 1e7)] | None = Field(
         default=None,
@@ -85,13 +137,37 @@ class TwineSpec(Table):
         "from the material's loss factor by default",
         examples=["20 us"],
     )
+    breaking_strength: Force | None = Field(
+        default=None, description="N, of one twine or rope, wet and knotted as it is used", examples=["250 N"]
+    )
+    _material: Material | None = PrivateAttr(default=None)
+
+    def settle(self, materials: dict[str, Material]) -> None:
+        """Take up the material, once, when the whole case is known."""
+        self._material = materials.get(self.material or "")
+
+    @property
+    def resolved_diameter(self) -> float | None:
+        """Diameter as given or from rtex (m); None where it cannot be told."""
+        density = self.resolved_density
+        if self.given_diameter is not None or self.rtex is None or density is None:
+            return self.given_diameter
+        return diameter_of(self.rtex, density, self.packing or PACKING)
+
+    @property
+    def diameter(self) -> float:
+        """Diameter as given or from rtex (m); only of a checked case."""
+        diameter = self.resolved_diameter
+        if diameter is None:
+            raise ValueError("a twine has neither diameter nor rtex with a density")
+        return diameter
 
     @property
     def resolved_density(self) -> float | None:
         """Density as given or of the material (kg/m3); None where neither says it."""
         if self.density is not None:
             return self.density
-        return MATERIALS[self.material].density if self.material else None
+        return self._material.density if self._material else None
 
     @property
     def resolved_law(self) -> ElasticLaw | None:
@@ -99,16 +175,16 @@ class TwineSpec(Table):
         if self.law is not None:
             return self.law.elastic()
         modulus = self.youngs_modulus
-        if modulus is None and self.material:
-            modulus = MATERIALS[self.material].youngs_modulus
+        if modulus is None and self._material:
+            modulus = self._material.youngs_modulus
         return None if modulus is None else LinearLaw(modulus)
 
     @property
     def resolved_loss_factor(self) -> float:
         """Loss factor of the material where no damping_time is given; 0 where the material has none."""
-        if self.damping_time is not None or self.material is None:
+        if self.damping_time is not None or self._material is None:
             return 0.0
-        return MATERIALS[self.material].loss_factor or 0.0
+        return self._material.loss_factor or 0.0
 
     @property
     def damping_source(self) -> str:
@@ -142,4 +218,6 @@ class TwineSpec(Table):
             damping_time=self.damping_time or 0.0,
             material=self.material or "",
             loss_factor=self.resolved_loss_factor,
+            breaking_strength=self.breaking_strength,
+            linear_density=self.rtex,
         )

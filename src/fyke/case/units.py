@@ -91,6 +91,20 @@ FORCE = Kind(
     {"N": Fraction(1), "kN": Fraction(1000), "mN": Fraction("1e-3"), "kgf": Fraction("9.80665")},
     "2 kN",
 )
+MASS = Kind("mass", "kg", {"kg": Fraction(1), "g": Fraction("1e-3"), "t": Fraction(1000)}, "250 g")
+LINEAR_DENSITY = Kind(
+    "mass per length",
+    "kg/m",
+    {
+        "tex": Fraction("1e-6"),
+        "dtex": Fraction("1e-7"),
+        "ktex": Fraction("1e-3"),
+        "den": Fraction("1e-6") / 9,
+        "g/m": Fraction("1e-3"),
+        "kg/m": Fraction(1),
+    },
+    "2000 tex",
+)
 VISCOSITY = Kind(
     "kinematic viscosity",
     "m2/s",
@@ -108,7 +122,9 @@ KINDS = (
     TIME,
     PRESSURE,
     DENSITY,
+    LINEAR_DENSITY,
     FORCE,
+    MASS,
     VISCOSITY,
     ENERGY,
     ANGLE,

@@ -8,7 +8,6 @@ import textwrap
 from pathlib import Path
 
 from ..case import Case, CaseError, Problem, json_schema, load_case, template
-from ..netting.twine import MATERIALS
 from ..system.system import System
 from ..version import __version__
 from .show import DONE, WRONG_INPUT, print_problems, stdout
@@ -58,7 +57,7 @@ def print_schema() -> None:
 def sources_of(case: Case, system: System) -> tuple[str, ...]:
     """Where the laws, materials and methods of a case come from, one line each."""
     used = {twine.material for twine in case.twine.values() if twine.material and twine.takes_from_material}
-    materials = [f"material {name}: {MATERIALS[name].source}" for name in sorted(used)]
+    materials = [f"material {name}: {case.materials[name].source}" for name in sorted(used)]
     method = case.solve.stepper if case.solve.kind == "dynamic" else "static"
     return (*system.sources, *materials, METHODS[method])
 

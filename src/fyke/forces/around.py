@@ -42,9 +42,9 @@ PITCH = BLOCK + STRIDE
 NEAR_ROWS = 9
 
 # Rows of Around.bars.
-REST_LENGTH, STIFFNESS, NORMAL, TANGENTIAL, DAMPING, ADDED, CURVE, REYNOLDS, BAR_ROWS = range(9)
+REST_LENGTH, STIFFNESS, NORMAL, TANGENTIAL, DAMPING, ADDED, REYNOLDS, BAR_ROWS = range(8)
 # Rows of Around.knots; 0 to 2 hold the weight.
-KNOT_DRAG, AREA, MASS, FREE, KNOT_ROWS = range(3, 8)
+KNOT_DRAG, AREA, MASS, FREE, KNOT_REYNOLDS, KNOT_SHARE, KNOT_ROWS = range(3, 10)
 
 
 class Around(NamedTuple):
@@ -56,9 +56,9 @@ class Around(NamedTuple):
     neighbours lie in the block too and get their forces from this slot; other: (r, BLOCK) columns of looked-up
     neighbours, other_row: (s,) which row of it; bars: flat (rows, BAR_ROWS, BLOCK), properties as in Elements,
     bars_row: (s,) which row; knots: flat (rows, KNOT_ROWS, BLOCK), weight N, knot drag kg/m, drag coefficient of all
-    that hangs on the knot kg/m, mass kg, free; knots_row: (blocks,). Blocks and slots that are alike share a row, which
-    spares memory traffic. bar: (s, BLOCK) index of the bar, m for none, only where laws are not linear or bars are
-    renewed. linear, damped, plain: as in Elements.
+    that hangs on the knot kg/m, mass kg, free, Re over speed s/m, part of its drag by law; knots_row: (blocks,).
+    Blocks and slots that are alike share a row, which spares memory traffic. bar: (s, BLOCK) index of the bar, m for
+    none, only where laws are not linear or bars are renewed. linear, damped: as in Elements.
     """
 
     knot_count: int
@@ -78,7 +78,6 @@ class Around(NamedTuple):
     bar: NDArray[np.uint32]
     linear: bool
     damped: bool
-    plain: bool
 
     @property
     def blocks(self) -> int:
@@ -200,7 +199,8 @@ def renumbered(el: Elements, order: Ints) -> Elements:
         knot_mass=el.knot_mass[order],
         weight=el.weight[order],
         free=el.free[order],
-        knot_curve=el.knot_curve[order],
+        knot_reynolds=el.knot_reynolds[order],
+        knot_share=el.knot_share[order],
     )
 
 
@@ -240,7 +240,6 @@ def bars_around(el: Elements, *, renewable: bool = False) -> Around:
         bar=np.array(slots.bar, dtype=np.uint32).reshape(-1, BLOCK),
         linear=el.linear,
         damped=el.damped,
-        plain=el.plain,
     )
 
 
@@ -269,7 +268,6 @@ class _SlotTable:
                 el.tangential_drag,
                 el.damping_time,
                 el.bar_added_mass,
-                el.bar_curve,
                 el.bar_reynolds,
             )
         )
@@ -338,7 +336,8 @@ def _knot_rows(el: Elements, blocks: int) -> tuple[Array, Ints]:
     for end in (el.knot_a, el.knot_b):
         np.add.at(area, end, el.normal_drag * el.rest_length)
     own = np.zeros((KNOT_ROWS, blocks * BLOCK))
-    own[:, : len(el.free)] = (*el.weight.T, el.knot_drag, area, el.knot_mass, el.free)
+    ours = el.knot_drag, area, el.knot_mass, el.free, el.knot_reynolds, el.knot_share
+    own[:, : len(el.free)] = (*el.weight.T, *ours)
     shared = _Shared()
     row = [shared.keep(own[:, k * BLOCK : (k + 1) * BLOCK].copy()) for k in range(blocks)]
     return np.array(shared.kept).reshape(-1), np.array(row, dtype=np.int64)

@@ -14,6 +14,8 @@ OPTIONS: dict[str, Any] = {
     # Kernels touch no Python object: other threads go on meanwhile.
     "nogil": True,
 }
+# What of the options goes down to functions within a kernel.
+WITHIN: dict[str, Any] = {name: OPTIONS[name] for name in ("fastmath", "error_model")}
 
 
 def is_compiled(kernel: Any) -> bool:

@@ -12,14 +12,15 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from .apart import keep, kept, put, summed, take
+from .apart import keep, kept, put, settle, summed, take
 from .around import (
     BAR_ROWS,
     BLOCK,
-    CURVE,
     DAMPING,
     KNOT_DRAG,
+    KNOT_REYNOLDS,
     KNOT_ROWS,
+    KNOT_SHARE,
     NORMAL,
     PITCH,
     REST_LENGTH,
@@ -32,13 +33,14 @@ from .around import (
 )
 from .compiled import OPTIONS
 from .drag import bar_water_force
-from .laws import flow_by_bar, knot_law, vary
+from .laws import flow_by_bar, varies, vary, vary_knots
 from .tension import law_tension
 from .total import TINY_LENGTH
 
 # Rows of the work array g (WORK_ROWS x PITCH,): the force in 0 to 2, speed of the water past the knots, force on the
-# far ends of bars; tension is SLOPE x stretch + OFFSET; ACROSS, ALONG hold the flow past bars, then c_n, c_t of it.
-SPEED, FAR, SLOPE, OFFSET, ACROSS, ALONG, WORK_ROWS = 3, 4, 13, 14, 15, 16, 17
+# far ends of bars; tension is SLOPE x stretch + OFFSET; ACROSS, ALONG hold the flow past bars, then c_n, c_t of it;
+# laws work in LAW_WORK and the rows behind it, up to SLOPE, before there is a force on far ends.
+SPEED, FAR, LAW_WORK, SLOPE, OFFSET, ACROSS, ALONG, WORK_ROWS = 3, 4, 5, 13, 14, 15, 16, 17
 
 
 @njit(**OPTIONS)
@@ -84,8 +86,9 @@ def block_force(block, old, fields, uniform, el, around, law, work):
     water = around.margin if uniform else here
     own = own_fields(old, here, water, fields, around)
     _own_forces(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, g)
-    if not around.plain:
-        _by_knot_laws(block * BLOCK, size, own, el, g)
+    if el.knot_curve.shape[0] > 0:
+        _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, el.knot_curve, g)
+    by_law = varies(el.bar_curves)
     for slot in range(around.first[block], around.first[block + 1]):
         begin, end = around.begin[slot], around.end[slot]
         row = around.bars_row[slot] * BAR_ROWS
@@ -97,11 +100,12 @@ def block_force(block, old, fields, uniform, el, around, law, work):
                 g[SLOPE * PITCH + i] = law[0, around.bar[slot, i]]
                 g[OFFSET * PITCH + i] = law[1, around.bar[slot, i]]
         others = neighbours(slot, old, here, water, fields, around, near)
-        if not around.plain:
+        if by_law:
+            reference = drags, across, drags, along
             drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
-            _flow_past(begin, end, own, others, g)
-            places = (row + NORMAL) * BLOCK, (row + CURVE) * BLOCK, (row + REYNOLDS) * BLOCK
-            vary(begin, end, g, across, along, around.bars, places, el)
+            _flow_past(begin, end, own, others, (around.bars, (row + REYNOLDS) * BLOCK), g)
+            vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, el.bar_curves)
+            settle()
         _add_bars(slot, own, others, (slopes, slope), (drags, across, along), around, g)
         if around.both[slot]:
             shift = around.shift[slot]
@@ -135,24 +139,27 @@ def _own_forces(size, own, first, knots, g):
 
 
 @njit(**OPTIONS)
-def _by_knot_laws(low, size, own, el, g):
-    """Change the drag of knots low .. low + size in rows 0 to 2 of g from that of the reference to that of the law."""
+def _by_knot_laws(size, own, first, knots, curve, g):
+    """Change the drag in rows 0 to 2 of g from that at the reference to that of the law; arguments as before."""
     fields, width, _, v, u = own
-    curves = el.knot_curves
-    for i in range(min(size, el.knot_curve.shape[0] - low)):
-        speed = summed(g, SPEED * PITCH + i)
-        changed = knot_law(speed * speed, el.knot_curve[low + i], curves)[0] - 1.0
-        c = changed * el.knot_drag[low + i] * speed
+    for i in range(size):
+        re = take(knots, first + KNOT_REYNOLDS * BLOCK + i) * summed(g, SPEED * PITCH + i)
+        keep(g, ACROSS * PITCH + i, re * re)
+    vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, curve)
+    for i in range(size):
+        c = take(knots, first + KNOT_DRAG * BLOCK + i) * summed(g, SPEED * PITCH + i)
+        c *= take(knots, first + KNOT_SHARE * BLOCK + i) * (kept(g, ACROSS * PITCH + i) - 1.0)
         for q in range(3):
             w = take(fields, u + q * width + i) - take(fields, v + q * width + i)
             put(g, q * PITCH + i, summed(g, q * PITCH + i) + c * w)
 
 
 @njit(**OPTIONS)
-def _flow_past(begin, end, own, others, g):
-    """Square (m2/s2) of the speed across one slot's bars into ACROSS, speed along them (m/s) into ALONG."""
+def _flow_past(begin, end, own, others, scale, g):
+    """Re^2 across one slot's bars into ACROSS, Re along them into ALONG; scale: array and place of Re over speed."""
     fields, width, x, v, u = own
     far, pitch, far_x, far_v, far_u = others
+    per_speed, first = scale
     for i in range(begin, end):
         dx = take(far, far_x + i) - take(fields, x + i)
         dy = take(far, far_x + pitch + i) - take(fields, x + width + i)
@@ -162,7 +169,8 @@ def _flow_past(begin, end, own, others, g):
         q -= take(fields, v + width + i) + take(far, far_v + pitch + i)
         r = take(fields, u + 2 * width + i) + take(far, far_u + 2 * pitch + i)
         r -= take(fields, v + 2 * width + i) + take(far, far_v + 2 * pitch + i)
-        square, along = flow_by_bar(dx, dy, dz, 0.5 * p, 0.5 * q, 0.5 * r)
+        half = 0.5 * take(per_speed, first + i)
+        square, along = flow_by_bar(dx, dy, dz, half * p, half * q, half * r)
         keep(g, ACROSS * PITCH + i, square)
         keep(g, ALONG * PITCH + i, along)
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from ..water.laws.panels import blunt
 from .apart import keep, take
-from .compiled import OPTIONS
-from .screen_laws import WITHIN, screen
+from .compiled import OPTIONS, WITHIN
+from .screen_laws import screen
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ def gather(first, size, x, rel, screens, g):
 
 
 @register_jitable(**WITHIN)
-def _force(first, size, screens, law, g):
+def _force(first, size, screens, law, wet, g):
     """Force (N) of a block of faces from rows 0 to 5 of g into rows 6 to 8."""
     for i in range(size):
         n0, n1, n2 = take(g, i), take(g, BLOCK + i), take(g, 2 * BLOCK + i)
@@ -93,25 +93,27 @@ def _force(first, size, screens, law, g):
         s = np.sqrt(max(1.0 - c * c, 0.0))
         sn, _ = local_solidity(take(screens.solid, first + i), area, speed * inverse)
         drag, lift = screen(law, blunt(abs(c), GRAZING), s, sn, take(screens.twine, first + i) * speed)
-        by_w = screens.half_density * area * speed * (drag - c * c * lift)
-        by_n = screens.half_density * speed * speed * c * lift
+        pressed = screens.half_density * take(wet, first + i) * speed
+        by_w = pressed * area * (drag - c * c * lift)
+        by_n = pressed * speed * c * lift
         keep(g, 6 * BLOCK + i, by_w * w0 + by_n * n0)
         keep(g, 7 * BLOCK + i, by_w * w1 + by_n * n1)
         keep(g, 8 * BLOCK + i, by_w * w2 + by_n * n2)
 
 
 @njit(**OPTIONS)
-def add_screens(x, rel, screens, law, out):
+def add_screens(x, rel, screens, law, wet, out):
     """Add the force of the water on all faces to out (n, 3) N, at their corners.
 
-    x: (n, 3) m; rel: (n, 3) m/s, the water against the knots; law: the form of a law, in tables.
+    x: (n, 3) m; rel: (n, 3) m/s, the water against the knots; law: the form of a law, in tables;
+    wet: (p,) part of every face under water.
     """
     g = np.empty((9, BLOCK))
     p = screens.solid.shape[0]
     for first in range(0, p, BLOCK):
         size = min(BLOCK, p - first)
         gather(first, size, x, rel, screens, g)
-        _force(first, size, screens, law, g)
+        _force(first, size, screens, law, wet, g)
         for i in range(size):
             for corner in range(4):
                 knot, part = screens.corners[first + i, corner], screens.share[first + i, corner]
@@ -121,14 +123,14 @@ def add_screens(x, rel, screens, law, out):
 
 
 @njit(**OPTIONS)
-def screen_forces(x, rel, screens, law, out):
-    """Force of the water on every face into out (p, 3) N."""
+def screen_forces(x, rel, screens, law, wet, out):
+    """Force of the water on every face into out (p, 3) N; arguments as in add_screens."""
     g = np.empty((9, BLOCK))
     p = screens.solid.shape[0]
     for first in range(0, p, BLOCK):
         size = min(BLOCK, p - first)
         gather(first, size, x, rel, screens, g)
-        _force(first, size, screens, law, g)
+        _force(first, size, screens, law, wet, g)
         for i in range(size):
             out[first + i, 0], out[first + i, 1], out[first + i, 2] = g[6, i], g[7, i], g[8, i]
 

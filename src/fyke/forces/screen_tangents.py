@@ -13,9 +13,9 @@ from numba import njit
 from numba.extending import register_jitable
 
 from ..water.laws.panels import blunt
-from .compiled import OPTIONS
+from .compiled import OPTIONS, WITHIN
 from .screen_faces import GRAZING, TINY, gather, local_solidity
-from .screen_laws import WITHIN, screen
+from .screen_laws import screen
 
 # Imaginary step that carries derivatives through the formula of a law; its square is below the rounding of anything.
 _STEP = 1e-30
@@ -50,8 +50,8 @@ def _slopes(law, c, sn, sn_by_area, re, out):
 
 
 @njit(**OPTIONS)
-def screen_tangents(x, rel, screens, law, by_area, by_speed):
-    """Tangents of the force on every face, dF/dN (p, 3, 3) Pa and dF/dw (p, 3, 3) N s/m."""
+def screen_tangents(x, rel, screens, law, wet, by_area, by_speed):
+    """Tangents of the force on every face, dF/dN (p, 3, 3) Pa and dF/dw (p, 3, 3) N s/m, at this wetness."""
     n, e, s, g = np.zeros(3), np.zeros(3), np.zeros((4, 2)), np.zeros((6, 1))
     for i in range(screens.solid.shape[0]):
         gather(i, 1, x, rel, screens, g)
@@ -76,8 +76,8 @@ def screen_tangents(x, rel, screens, law, by_area, by_speed):
                 identity = 1.0 if p == q else 0.0
                 by_speed[i, p, q] = area * speed * (k * identity + along * e[q] + both * n[q])
                 by_area[i, p, q] = speed * speed * (m * identity + across * n[q] + both * e[q])
-                by_speed[i, p, q] *= screens.half_density
-                by_area[i, p, q] *= screens.half_density
+                by_speed[i, p, q] *= screens.half_density * wet[i]
+                by_area[i, p, q] *= screens.half_density * wet[i]
 
 
 @register_jitable(**WITHIN)

@@ -19,6 +19,8 @@ Places = NDArray[np.int64]
 class Screens:
     """The faces of a net under one law; made with Screens.of.
 
+    wet: (p,) part of every face that is under water, 1 unless someone says otherwise; forces are multiplied by it, and
+    tangents take it for constant: what it changes is in forces.wetness.
     Everywhere x: (n, 3) m, the knots; rel: (n, 3) m/s, the water against the knots.
     """
 
@@ -26,6 +28,7 @@ class Screens:
         self.arrays, self.law = arrays, law
         self._form = in_tables(law.form)
         p = len(arrays.solid)
+        self.wet = np.ones(p)
         self._tangents = np.zeros((p, 3, 3)), np.zeros((p, 3, 3))
 
     @classmethod
@@ -52,12 +55,12 @@ class Screens:
 
     def add_load(self, x: Array, rel: Array, out: Array) -> None:
         """Add the force of the water to out (n, 3) N."""
-        add_screens(x, rel, self.arrays, self._form, out)
+        add_screens(x, rel, self.arrays, self._form, self.wet, out)
 
     def forces(self, x: Array, rel: Array) -> Array:
         """Return the force of the water on every face, (p, 3) N."""
         out = np.empty((self.count, 3))
-        screen_forces(x, rel, self.arrays, self._form, out)
+        screen_forces(x, rel, self.arrays, self._form, self.wet, out)
         return out
 
     def tangents(self, x: Array, rel: Array) -> tuple[Array, Array]:
@@ -65,7 +68,7 @@ class Screens:
 
         N: vector area; w: mean velocity of the water past the corners, by their shares.
         """
-        screen_tangents(x, rel, self.arrays, self._form, *self._tangents)
+        screen_tangents(x, rel, self.arrays, self._form, self.wet, *self._tangents)
         return self._tangents
 
     def assemble(

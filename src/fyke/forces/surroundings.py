@@ -25,7 +25,7 @@ from .laws import coefficients_of_bars, coefficients_of_knots
 from .screens import Screens
 from .shelter import Shelter
 from .total import TINY_LENGTH
-from .wetness import add_wetting, wet_parts
+from .wetness import add_face_wetting, add_wetting, wet_faces, wet_parts
 
 Array = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -92,6 +92,7 @@ class Surroundings:
         self._shelter: Shelter | None = None
         self.left = np.ones((net.knot_count, 1))
         viscosity = system.water.kinematic_viscosity
+        self._twine_radius = np.empty(0) if self.faces is None else 0.5 * self.faces.diameter
         if self.faces is not None and c.screens is not None:
             self.screens = Screens.of(self.faces, c.screens, system.water.density, viscosity)
         if self.faces is not None and (c.wake or c.twines):
@@ -151,24 +152,32 @@ class Surroundings:
 
     def add_wetting(
         self,
+        x: Array,
         rel: Array,
         el: Elements,
         t: Array,
         length: Array,
         places: tuple[Places, Places, Places],
+        groups: tuple[Places, Places],
         *,
         symmetric: bool,
         data: Array,
     ) -> None:
-        """Add to -dF/dx what changes with the wet parts of the net as the last `at` saw it.
+        """Add to -dF/dx what changes with the wet parts of the net as the last `at` saw it; arguments as of `load`.
 
-        Arguments as of `load`; places: start, stride, diagonal of solve.pattern.Pattern, to which the data of the
-        matrix belong; symmetric: add the symmetric part alone.
+        places, groups: start, stride, diagonal and groups of solve.pattern.Pattern, to which the data of the matrix
+        belong; symmetric: add the symmetric part alone.
         """
-        if self._depth is not None:
-            displaced, g = self.system.displaced, self.system.water.gravity
-            sizes = *self._radius, g * displaced.bar, g * displaced.knot
-            add_wetting(self._depth, rel, el, sizes, (t, length), symmetric, places, data)
+        if self._depth is None:
+            return
+        displaced, g = self.system.displaced, self.system.water.gravity
+        sizes = *self._radius, g * displaced.bar, g * displaced.knot
+        add_wetting(self._depth, rel, el, sizes, (t, length), symmetric, places, data)
+        if self.screens is not None:
+            force, arrays = self.screens.forces(x, rel), self.screens.arrays
+            add_face_wetting(
+                self._depth, force, arrays, self._twine_radius, self.screens.wet, symmetric, groups, data
+            )
 
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).
@@ -186,6 +195,8 @@ class Surroundings:
             u = u + waves.velocity
         el = self._added_by_angle(x, u - v) if self._by_angle else system.elements
         displaced, self._depth = system.displaced, None
+        if self.screens is not None:
+            self.screens.wet.fill(1.0)
         if waves is not None or self.near_surface(x, 0.0):
             el, displaced = self._wetted(el, x, np.zeros(len(x)) if waves is None else waves.elevation)
         if waves is not None:
@@ -213,6 +224,8 @@ class Surroundings:
         self._depth = depth
         bars, knots = np.empty(len(el.rest_length)), np.empty(len(x))
         wet_parts(depth, el, *self._radius, bars, knots)
+        if self.screens is not None:
+            wet_faces(depth, self.screens.arrays.corners, self._twine_radius, self.screens.wet)
         displaced = Displaced(bars * whole.bar, knots * whole.knot)
         lost = whole.knot - displaced.knot
         added = system.coefficients.added_mass_knot * lost

@@ -11,30 +11,35 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from .around import BLOCK, PITCH
 from .compiled import OPTIONS
 from .drag import bar_water_force
-from .laws import flow_by_bar, knot_law, vary
+from .laws import LAW_ROWS, flow_by_bar, varies, vary, vary_knots
 from .tension import law_tension
 
-# Bars are taken in blocks that fit the first-level cache: gather, vector mathematics, scatter.
-BLOCK = 256
+# Bars are taken in blocks that fit the first-level cache: gather, vector mathematics, scatter. Rows of the work array
+# g, PITCH apart: difference of positions and water past the middle, which become the forces on both ends; rate;
+# tension and its slope; Re^2 across and Re along a bar, or Re^2 of a knot, then the law; what laws work in.
+RATE, TENSION, SLOPE, ACROSS, ALONG, LAW_WORK = 6, 9, 10, 11, 12, 13
+WORK_ROWS = LAW_WORK + LAW_ROWS
 
 # A bar of no length has no direction: this keeps the division finite and the direction zero (m).
 TINY_LENGTH = 1e-300
 
 
 @njit(**OPTIONS)
-def knot_forces(v, u, el, rel, out):
+def knot_forces(v, u, el, rel, g, out):
     """Weight and knot drag into out (n, 3) N; velocity of the water relative to the knot into rel (n, 3) m/s."""
-    curves = el.knot_curves
+    by_law = el.knot_curve.shape[0] > 0
+    if by_law:
+        _knot_laws(v, u, el, g, out)
     for i in range(v.shape[0]):
         wx = u[i, 0] - v[i, 0]
         wy = u[i, 1] - v[i, 1]
         wz = u[i, 2] - v[i, 2]
-        square = wx * wx + wy * wy + wz * wz
-        c = el.knot_drag[i] * np.sqrt(square)
-        if not el.plain:
-            c *= knot_law(square, el.knot_curve[i], curves)[0]
+        c = el.knot_drag[i] * np.sqrt(wx * wx + wy * wy + wz * wz)
+        if by_law:
+            c *= out[i, 0]
         rel[i, 0], rel[i, 1], rel[i, 2] = wx, wy, wz
         out[i, 0] = el.weight[i, 0] + c * wx
         out[i, 1] = el.weight[i, 1] + c * wy
@@ -42,100 +47,129 @@ def knot_forces(v, u, el, rel, out):
 
 
 @njit(**OPTIONS)
+def _knot_laws(v, u, el, g, out):
+    """Drag of the knots over that of Elements into the first column of out."""
+    for start in range(0, v.shape[0], BLOCK):
+        size = min(BLOCK, v.shape[0] - start)
+        for i in range(size):
+            k = start + i
+            square = (u[k, 0] - v[k, 0]) ** 2 + (u[k, 1] - v[k, 1]) ** 2 + (u[k, 2] - v[k, 2]) ** 2
+            g[ACROSS * PITCH + i] = square * el.knot_reynolds[k] ** 2
+        vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, el.knot_curve)
+        for i in range(size):
+            out[start + i, 0] = 1.0 + el.knot_share[start + i] * (g[ACROSS * PITCH + i] - 1.0)
+
+
+@njit(**OPTIONS)
 def total_force(x, v, u, el, rel, g, out):
     """Force on every knot into out (n, 3) N.
 
     x, v, u: (n, 3) position m, velocity m/s, velocity of the water at the knots m/s; el: Elements; rel: (n, 3) and
-    g: (16, BLOCK) work arrays.
+    g: (WORK_ROWS x PITCH,) work arrays.
     """
-    knot_forces(v, u, el, rel, out)
+    knot_forces(v, u, el, rel, g, out)
     m = el.knot_a.shape[0]
+    by_law = varies(el.bar_curves)
     for start in range(0, m, BLOCK):
         size = min(BLOCK, m - start)
         for i in range(size):
             a = el.knot_a[start + i]
             b = el.knot_b[start + i]
-            g[0, i] = x[b, 0] - x[a, 0]
-            g[1, i] = x[b, 1] - x[a, 1]
-            g[2, i] = x[b, 2] - x[a, 2]
-            g[3, i] = 0.5 * (rel[a, 0] + rel[b, 0])
-            g[4, i] = 0.5 * (rel[a, 1] + rel[b, 1])
-            g[5, i] = 0.5 * (rel[a, 2] + rel[b, 2])
+            for q in range(3):
+                g[q * PITCH + i] = x[b, q] - x[a, q]
+                g[(3 + q) * PITCH + i] = 0.5 * (rel[a, q] + rel[b, q])
         if el.damped:
             for i in range(size):
                 a = el.knot_a[start + i]
                 b = el.knot_b[start + i]
-                g[6, i] = v[b, 0] - v[a, 0]
-                g[7, i] = v[b, 1] - v[a, 1]
-                g[8, i] = v[b, 2] - v[a, 2]
+                for q in range(3):
+                    g[(RATE + q) * PITCH + i] = v[b, q] - v[a, q]
         if not el.linear:
             _law_of_block(start, size, el, g)
-        _drag_of_block(start, size, el, g)
-        for i in range(size):
-            e = start + i
-            dx, dy, dz = g[0, i], g[1, i], g[2, i]
-            length = np.sqrt(dx * dx + dy * dy + dz * dz)
-            inverse = 1.0 / max(length, TINY_LENGTH)
-            tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
-            fx, fy, fz = bar_water_force(
-                g[3, i], g[4, i], g[5, i], tx, ty, tz, g[11, i] * length, g[12, i] * length
-            )
-            stretch = length - el.rest_length[e]
-            if el.linear:
-                tension = el.stiffness[e] * stretch
-                slope = el.stiffness[e]
-            else:
-                tension = g[9, i]
-                slope = g[10, i]
-            if el.damped:
-                tension += el.damping_time[e] * slope * (g[6, i] * tx + g[7, i] * ty + g[8, i] * tz)
-            tension = max(tension, 0.0) if stretch > 0.0 else 0.0
-            g[0, i], g[1, i], g[2, i] = fx + tension * tx, fy + tension * ty, fz + tension * tz
-            g[3, i], g[4, i], g[5, i] = fx - tension * tx, fy - tension * ty, fz - tension * tz
+        if by_law:
+            _drag_of_block(start, size, el, g)
+            _forces_of_block(start, size, el, (g, ACROSS * PITCH, g, ALONG * PITCH), g)
+        else:
+            _forces_of_block(start, size, el, (el.normal_drag, start, el.tangential_drag, start), g)
         for i in range(size):
             a = el.knot_a[start + i]
             b = el.knot_b[start + i]
-            out[a, 0] += g[0, i]
-            out[a, 1] += g[1, i]
-            out[a, 2] += g[2, i]
-            out[b, 0] += g[3, i]
-            out[b, 1] += g[4, i]
-            out[b, 2] += g[5, i]
+            for q in range(3):
+                out[a, q] += g[q * PITCH + i]
+                out[b, q] += g[(3 + q) * PITCH + i]
+
+
+@njit(**OPTIONS)
+def _forces_of_block(start, size, el, drags, g):
+    """Forces (N) on the first ends of bars into rows 0 to 2 of g, on their far ends into 3 to 5.
+
+    drags: c_n and c_t (kg/m2), each an array and the place in it of the first bar's.
+    """
+    cn, cn_at, ct, ct_at = drags
+    for i in range(size):
+        e = start + i
+        dx, dy, dz = g[i], g[PITCH + i], g[2 * PITCH + i]
+        length = np.sqrt(dx * dx + dy * dy + dz * dz)
+        inverse = 1.0 / max(length, TINY_LENGTH)
+        tx, ty, tz = dx * inverse, dy * inverse, dz * inverse
+        fx, fy, fz = bar_water_force(
+            g[3 * PITCH + i],
+            g[4 * PITCH + i],
+            g[5 * PITCH + i],
+            tx,
+            ty,
+            tz,
+            cn[cn_at + i] * length,
+            ct[ct_at + i] * length,
+        )
+        stretch = length - el.rest_length[e]
+        if el.linear:
+            tension = el.stiffness[e] * stretch
+            slope = el.stiffness[e]
+        else:
+            tension = g[TENSION * PITCH + i]
+            slope = g[SLOPE * PITCH + i]
+        if el.damped:
+            rate = g[RATE * PITCH + i] * tx + g[(RATE + 1) * PITCH + i] * ty + g[(RATE + 2) * PITCH + i] * tz
+            tension += el.damping_time[e] * slope * rate
+        tension = max(tension, 0.0) if stretch > 0.0 else 0.0
+        px, py, pz = tension * tx, tension * ty, tension * tz
+        g[i], g[PITCH + i], g[2 * PITCH + i] = fx + px, fy + py, fz + pz
+        g[3 * PITCH + i], g[4 * PITCH + i], g[5 * PITCH + i] = fx - px, fy - py, fz - pz
 
 
 @njit(**OPTIONS)
 def _law_of_block(start, size, el, g):
-    """Tension (N) into g[9] and slope dT/dl (N/m) into g[10] by laws that are not all linear."""
+    """Tension (N) into TENSION and slope dT/dl (N/m) into SLOPE by laws that are not all linear."""
     for i in range(size):
         e = start + i
-        length = np.sqrt(g[0, i] ** 2 + g[1, i] ** 2 + g[2, i] ** 2)
+        length = np.sqrt(g[i] ** 2 + g[PITCH + i] ** 2 + g[2 * PITCH + i] ** 2)
         strain = length / el.rest_length[e] - 1.0
-        g[9, i] = 0.0
-        g[10, i] = 0.0
+        g[TENSION * PITCH + i] = 0.0
+        g[SLOPE * PITCH + i] = 0.0
         if strain > 0.0:
             tension, slope = law_tension(strain, el.law_rows, el.law_first[e], el.law_end[e])
-            g[9, i] = tension
-            g[10, i] = slope / el.rest_length[e]
+            g[TENSION * PITCH + i] = tension
+            g[SLOPE * PITCH + i] = slope / el.rest_length[e]
 
 
 @njit(**OPTIONS)
 def _drag_of_block(start, size, el, g):
-    """Coefficients c_n and c_t (kg/m2) of the drag into g[11] and g[12]."""
-    if el.plain:
-        for i in range(size):
-            g[11, i] = el.normal_drag[start + i]
-            g[12, i] = el.tangential_drag[start + i]
-        return
+    """Coefficients c_n and c_t (kg/m2) by their laws into ACROSS and ALONG."""
     for i in range(size):
-        square, along = flow_by_bar(g[0, i], g[1, i], g[2, i], g[3, i], g[4, i], g[5, i])
-        g[11, i] = square
-        g[12, i] = along
-        g[13, i] = el.normal_drag[start + i]
-        g[14, i] = el.bar_curve[start + i]
-        g[15, i] = el.bar_reynolds[start + i]
-    vary(0, size, g, 11 * BLOCK, 12 * BLOCK, g, (13 * BLOCK, 14 * BLOCK, 15 * BLOCK), el)
+        r = el.bar_reynolds[start + i]
+        g[ACROSS * PITCH + i], g[ALONG * PITCH + i] = flow_by_bar(
+            g[i],
+            g[PITCH + i],
+            g[2 * PITCH + i],
+            r * g[3 * PITCH + i],
+            r * g[4 * PITCH + i],
+            r * g[5 * PITCH + i],
+        )
+    reference = el.normal_drag, start, el.tangential_drag, start
+    vary(0, size, g, (ACROSS * PITCH, ALONG * PITCH), LAW_WORK * PITCH, reference, el.bar_curves)
 
 
 def work_arrays(knots: int) -> tuple[np.ndarray, np.ndarray]:
     """Return the work arrays of total_force for so many knots."""
-    return np.zeros((knots, 3)), np.zeros((16, BLOCK))
+    return np.zeros((knots, 3)), np.zeros(WORK_ROWS * PITCH)

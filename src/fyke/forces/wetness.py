@@ -4,8 +4,9 @@ A bar is round and a ramp: the part of its cross-section that is wet goes straig
 one radius r above the surface to one below it, and the bar's part is the mean of that along its length; with depths
 a and b of its ends and the integral I of the ramp,
     beta = (I(b) - I(a)) / (b - a).
-A knot, or what hangs there, is a sphere, with the volume of a cap. Drag, added mass and buoyancy are multiplied by the
-part, so that with F the load of the whole bar on an end, dF/dz = F dbeta/dz at both ends' heights.
+A knot, or what hangs there, is a sphere, with the volume of a cap; a face of netting is the mean of its two diagonals
+as if they were twines. Drag, added mass and buoyancy are multiplied by the part, so that with F the load that the
+whole bar or face would have, dF/dz = F dbeta/dz by the heights of its corners.
 """
 
 from __future__ import annotations
@@ -71,6 +72,15 @@ def wet_parts(depth, el, bar_radius, knot_radius, bars, knots):
 
 
 @njit(**OPTIONS)
+def wet_faces(depth, corners, radius, out):
+    """Part under water of every face of netting into out (p,); corners: (p, 4) knots; radius: (p,) m, of the twine."""
+    for f in range(out.shape[0]):
+        a, b, c, d = corners[f, 0], corners[f, 1], corners[f, 2], corners[f, 3]
+        one, other = wet_bar(depth[a], depth[c], radius[f])[0], wet_bar(depth[b], depth[d], radius[f])[0]
+        out[f] = 0.5 * (one + other)
+
+
+@njit(**OPTIONS)
 def add_wetting(depth, rel, el, sizes, bars, symmetric, places, data):
     """Add to -dF/dx what the wet parts change, or its symmetric part alone.
 
@@ -122,3 +132,34 @@ def add_wetting(depth, rel, el, sizes, bars, symmetric, places, data):
                     data[place + 2 * stride[e, column] + p] += value
                     if symmetric:
                         data[mirrored + p * stride[e, row] + 2] += value
+
+
+@njit(**OPTIONS)
+def add_face_wetting(depth, force, screens, radius, wet, symmetric, groups, data):
+    """Add to -dF/dx what the wet parts (p,) of faces change, or its symmetric part alone.
+
+    force: (p, 3) N, with the wet parts in it; screens: ScreenArrays; radius: (p,) m, of the twine; groups: of
+    solve.pattern.Pattern.
+    """
+    start, stride = groups
+    half = 0.5 if symmetric else 1.0
+    slopes = np.zeros(4)
+    for f in range(wet.shape[0]):
+        a, b, c, d = (
+            screens.corners[f, 0],
+            screens.corners[f, 1],
+            screens.corners[f, 2],
+            screens.corners[f, 3],
+        )
+        _, slopes[0], slopes[2] = wet_bar(depth[a], depth[c], radius[f])
+        _, slopes[1], slopes[3] = wet_bar(depth[b], depth[d], radius[f])
+        for row in range(4):
+            for column in range(4):
+                place, mirrored = start[f, row, column], start[f, column, row]
+                if place < 0 or slopes[column] == 0.0:
+                    continue
+                part = half * screens.share[f, row] * 0.5 * slopes[column] / max(wet[f], TINY_PART)
+                for p in range(3):
+                    data[place + 2 * stride[f, column] + p] += part * force[f, p]
+                    if symmetric:
+                        data[mirrored + p * stride[f, row] + 2] += part * force[f, p]

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Literal
 
 import numpy as np
 import viser
 from numpy.typing import ArrayLike, NDArray
 
 from ..report.colours import GREY, PALETTE, linear
-from ..report.parts import Bars, Knots, Outline, parts_of
+from ..report.parts import Bars, Knots, Outline, coloured_bars, parts_of
 from ..report.quantities import BarQuantity, quantities
 from ..report.space import AZIMUTH, ELEVATION
 from ..report.style import rgb
@@ -92,20 +93,21 @@ class Scene:
         result = self.study.result
         position = result.position[-1].astype(np.float32)
         values = self.quantity.values(result, 0)
-        self.top = float(values.max(initial=0.0)) or 1.0
+        self.top = float(values[coloured_bars(result.net)].max(initial=0.0)) or 1.0
         slack = result.tension[-1] <= 0.0
         colours = COLOURS[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]
         colours[slack] = SLACK
         with self.client.atomic():
-            for part in parts_of(result.net):
+            for number, part in enumerate(parts_of(result.net)):
+                name = f"{number} {part.name}"
                 if isinstance(part, Outline):
                     points = part.points.astype(np.float32)
-                    self._line(part.name, np.stack([points[:-1], points[1:]], axis=1), part.colour, FRAME)
+                    self._line(name, np.stack([points[:-1], points[1:]], axis=1), part.colour, FRAME)
                 elif isinstance(part, Bars):
                     own = colours[part.bars] if part.colour is None else part.colour
-                    self._line(part.name, position[result.net.bars[part.bars]], own, BAR * part.width)
+                    self._line(name, position[result.net.bars[part.bars]], own, BAR * part.width)
                 else:
-                    self._mark(part, position)
+                    self._mark(name, part, position)
 
     def _line(
         self, name: str, points: NDArray[np.float32], colour: NDArray[np.uint8] | str, width: float
@@ -122,17 +124,18 @@ class Scene:
         else:
             handle.points, handle.colors = points, colours
 
-    def _mark(self, part: Knots, position: NDArray[np.float32]) -> None:
-        points, handle = position[part.knots], self._points.get(part.name)
+    def _mark(self, name: str, part: Knots, position: NDArray[np.float32]) -> None:
+        points, handle = position[part.knots], self._points.get(name)
         if handle is not None and len(handle.points) == len(points):
             handle.points = points
             return
         if handle is not None:
             handle.remove()
         colour = tuple(_bytes(rgb(part.colour)).tolist())
-        size = KNOT * part.size * float(np.median(self.study.result.net.rest_length))
-        self._points[part.name] = self.client.scene.add_point_cloud(
-            f"/{part.name}", points, colour, point_size=size, point_shape="circle", precision="float32"
+        size = max(KNOT * part.size * float(np.median(self.study.result.net.rest_length)), part.diameter)
+        shape: Literal["circle", "diamond"] = "diamond" if part.marker == "diamond" else "circle"
+        self._points[name] = self.client.scene.add_point_cloud(
+            f"/{name}", points, colour, point_size=size, point_shape=shape, precision="float32"
         )
 
     def on_pick(self, picked: Callable[[int | None], None]) -> None:

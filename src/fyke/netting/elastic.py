@@ -5,7 +5,8 @@ Every law is handed on as rows of one shape, so that one kernel serves all: row 
 
     T = tension_s + slope_s (strain - strain_s) + coefficient_s (strain - strain_s)^exponent_s      (N)
 
-up to the next row; the last row has no end. T = 0 for strain <= 0.
+up to the next row; the last row has no end. T = 0 for strain <= 0. A row is straight, a power, or a slope with a
+square: where coefficient and slope are both above 0 the exponent is 2.
 """
 
 from __future__ import annotations
@@ -58,6 +59,29 @@ class PowerLaw:
     def describe(self) -> str:
         """Return one line with formula and source."""
         return f"T = d^2 C1 strain^C2, C1 = {self.c1:g} Pa, C2 = {self.c2:g} (Wilson 1967)"
+
+
+@dataclass(frozen=True)
+class QuadraticLaw:
+    """T = C1 strain + C2 strain^2, with forces measured on the twine itself, whatever its diameter.
+
+    C1 = 1160 N and C2 = 37300 N stand in REEF3D, a public code; the literature credits Lader & Fredheim, Dynamic
+    properties of a flexible net sheet in waves and current, Aquacultural Engineering 35, 228-238, 2006, not opened.
+    """
+
+    c1: float  # N, above 0
+    c2: float  # N, at least 0
+
+    def rows(self, diameter: float) -> Array:
+        """One row of slope C1 (N), coefficient C2 (N) and exponent 2."""
+        return np.array([[0.0, 0.0, self.c1, self.c2, 2.0]])
+
+    def describe(self) -> str:
+        """Return one line with formula and source."""
+        return (
+            f"T = C1 strain + C2 strain^2, C1 = {self.c1:g} N, C2 = {self.c2:g} N (form: Lader & Fredheim 2006, as "
+            "REEF3D has it; paper not opened)"
+        )
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -11,13 +12,16 @@ from matplotlib.collections import LineCollection
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
+from ..netting.net import Net
 from . import style
-from .parts import Knots, Outline
-from .ticks import STEPS, number
+from .parts import Bars, Knots, Outline, parts_of
+from .plane import size_of
+from .ticks import STEPS, number, text_size
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -25,6 +29,9 @@ Indices = NDArray[np.int64]
 DASHED_UP_TO = 2000  # bars; beyond, a bar is shorter on paper than a dash
 VECTORS_UP_TO = 8000  # bars; beyond, they go into a vector file as one image, which keeps it small
 KNOTS_UP_TO = 600
+BESIDE_ENTRY = 24.0  # points, of a handle and the spaces of an entry in a legend
+LARGEST_ENTRY = 4.5  # points, of a marker in a legend
+EDGE = 0.3  # points, of the rim of a float or sinker
 MARKERS = {"square": "s", "circle": "o", "diamond": "D"}
 # Drawn of one kind; beyond, bars are finer than the dots of a page and some show as much as all.
 BARS_UP_TO = 150_000
@@ -118,11 +125,14 @@ def draw_free_knots(ax: Axes, points: Array, fixed: NDArray[np.bool_]) -> None:
 
 
 def draw_knots(ax: Axes, points: Array, part: Knots) -> None:
-    """Mark the knots of a part among points (n, 2), unless they are too many."""
+    """Mark the knots of a part among points (n, 2) m, unless they are too many."""
     if len(part.knots) <= KNOTS_UP_TO:
-        size = part.size * knot_size(len(points))
-        kind = MARKERS[part.marker]
-        mark(ax, points[part.knots], marker=kind, markersize=size, color=part.colour, label=part.name)
+        inch = float(np.ptp(ax.get_xlim()) / size_of(ax)[0])
+        size = max(part.size * knot_size(len(points)), 72.0 * part.diameter / inch)
+        options: dict[str, Any] = {"markersize": size, "color": part.colour, "label": part.name}
+        if part.diameter > 0.0:
+            options |= {"markeredgecolor": style.BLACK, "markeredgewidth": EDGE}
+        mark(ax, points[part.knots], marker=MARKERS[part.marker], **options)
 
 
 def draw_outline(ax: Axes, points: Array, part: Outline) -> None:
@@ -177,23 +187,39 @@ def shown_tensions(scale: Normalize) -> tuple[ScalarMappable, dict[str, Any]]:
     return ScalarMappable(scale, style.TENSION_COLOURS), options
 
 
+def legend_rows(names: Iterable[str], width: float) -> int:
+    """Return how many rows a legend of these names takes in so many inches."""
+    lengths = [text_size(len(name), style.SMALL_TYPE)[0] + BESIDE_ENTRY for name in names]
+    return int(np.ceil(sum(lengths) / (72.0 * width)))
+
+
+def part_names(net: Net, *others: str) -> list[str]:
+    """Return what a legend of a net may name: its parts that are not coloured by a quantity, and others."""
+    named = (p.name for p in parts_of(net) if isinstance(p, Knots) or (isinstance(p, Bars) and p.colour))
+    return [*dict.fromkeys(named), *others]
+
+
 def name_marks(home: Figure | Axes) -> None:
-    """Name what is drawn in a figure or in axes, each thing once, in one row above it."""
+    """Name what is drawn in a figure or in axes, each thing once, in as few rows as will do, above it."""
     named: dict[str, Any] = {}
     for ax in home.axes if isinstance(home, Figure) else [home]:
         for handle, label in zip(*ax.get_legend_handles_labels(), strict=True):
             named.setdefault(label, handle)
     if named:
+        width = home.get_figwidth() if isinstance(home, Figure) else float(size_of(home)[0])
         legend = home.legend(
             list(named.values()),
             list(named),
             loc="upper center",
-            ncols=len(named),
+            ncols=-(-len(named) // legend_rows(named, width)),
             borderaxespad=0.2,
+            labelspacing=0.2,
             handletextpad=0.5,
             columnspacing=1.2,
         )
         for entry in legend.legend_handles:
-            # Lines of a large net are too thin to be known again by their entry.
+            # Lines of a large net are too thin to be known again by their entry, and a float may be large.
             if isinstance(entry, LineCollection):
                 entry.set_linewidth(0.9)
+            elif isinstance(entry, Line2D):
+                entry.set_markersize(min(float(entry.get_markersize()), LARGEST_ENTRY))

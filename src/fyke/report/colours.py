@@ -9,6 +9,7 @@ from matplotlib.colors import to_rgb
 from numpy.typing import ArrayLike, NDArray
 
 from ..solve.result import Result
+from .parts import coloured_bars
 from .quantities import QUANTITIES, BarQuantity, quantities
 from .style import SLACK_GREY, TENSION_COLOURS
 
@@ -24,7 +25,7 @@ class QuantityError(ValueError):
 
 @dataclass(frozen=True)
 class Colouring:
-    """A quantity and the value that has the darkest colour, from 0."""
+    """A quantity and the value that has the darkest colour, from 0: the largest of the bars that it colours."""
 
     quantity: BarQuantity
     largest: float
@@ -36,8 +37,8 @@ class Colouring:
         if key not in there:
             why = "no water passes them" if key in QUANTITIES else "there is no such quantity"
             raise QuantityError(f"bars cannot be coloured by {key!r}, {why}; choose {', '.join(there)}")
-        quantity, frames = QUANTITIES[key], range(len(result.time))
-        largest = max(float(np.max(quantity.values(result, k), initial=0.0)) for k in frames)
+        quantity, frames, shown = QUANTITIES[key], range(len(result.time)), coloured_bars(result.net)
+        largest = max(float(np.max(quantity.values(result, k)[shown], initial=0.0)) for k in frames)
         return cls(quantity, largest if largest > 0.0 else 1.0)
 
     def colours(self, result: Result, index: int) -> Array:

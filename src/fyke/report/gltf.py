@@ -21,7 +21,7 @@ from ..results.whole import replacing
 from ..solve.result import Result
 from ..version import __version__
 from .colours import Colouring, linear
-from .parts import Bars, Outline, parts_of
+from .parts import Bars, Knots, Outline, parts_of
 from .solids import Solid, balls, threads, tubes
 from .style import BLUE
 
@@ -71,16 +71,19 @@ def _solids(result: Result, index: int, colouring: Colouring) -> Iterator[tuple[
             else:
                 colours = _plain(part.colour, len(part.bars))
             if len(part.bars) > TUBES_UP_TO:
-                yield part.name, threads(start, end, colours)
+                yield _name(part), threads(start, end, colours)
             else:
-                radius = 0.5 * part.width * net.bar_diameter[part.bars]
-                yield part.name, tubes(start, end, radius, colours)
+                yield _name(part), tubes(start, end, 0.5 * net.bar_diameter[part.bars], colours)
         else:
-            radius = np.full(len(part.knots), 0.5 * MARK * part.size * thickest)
-            yield part.name, balls(position[part.knots], radius, _plain(part.colour, len(radius)))
+            radius = np.full(len(part.knots), 0.5 * (part.diameter or MARK * part.size * thickest))
+            yield _name(part), balls(position[part.knots], radius, _plain(part.colour, len(radius)))
     tied = np.flatnonzero(net.knot_diameter > 0.0)
     if 0 < len(tied) <= TUBES_UP_TO:
         yield "knot", balls(position[tied], 0.5 * net.knot_diameter[tied], _plain(BLUE, len(tied)))
+
+
+def _name(part: Bars | Knots) -> str:
+    return f"{part.name} {part.own}".rstrip()
 
 
 def _plain(colour: str, count: int) -> Array:

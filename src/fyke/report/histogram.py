@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..solve.result import Result
 from . import style
 from .bars import name_marks, slack_name, tension_scale
+from .parts import coloured_bars
 from .ticks import STEPS, number
 
 Array = NDArray[np.float64]
@@ -25,10 +26,14 @@ TOWERING = 3.0  # times the highest column of taut bars: a higher one of slack b
 
 @style.styled
 def tension_histogram(result: Result) -> Figure:
-    """Count the bars by tension in the last frame; slack bars stand apart, on the left."""
+    """Count the bars by tension in the last frame; slack bars stand apart, on the left. Ropes are not counted in."""
     figure = Figure(figsize=(WIDTH, HEIGHT))
     room = (LEFT / WIDTH, BELOW / HEIGHT, 1.0 - (LEFT + RIGHT) / WIDTH, 1.0 - (BELOW + ABOVE) / HEIGHT)
-    draw_histogram(figure.add_axes(room), result.tension[-1])
+    shown = coloured_bars(result.net)
+    ax = figure.add_axes(room)
+    draw_histogram(ax, result.tension[-1][shown])
+    if len(shown) < result.net.bar_count:
+        ax.set_ylabel("Number of bars of netting")
     name_marks(figure)
     return figure
 

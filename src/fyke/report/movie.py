@@ -242,8 +242,8 @@ class Stage:
             return
         if isinstance(part, Knots):
             mesh = self._pv.PolyData(np.array(net.positions), verts=_vertices(part.knots))
-            round_ = part.marker == "circle"
-            size = KNOT * part.size * scale
+            round_ = part.marker == "circle" or part.diameter > 0.0
+            size = max(KNOT * part.size * scale, part.diameter / self.metres)
             self._plotter.add_mesh(
                 mesh, color=part.colour, point_size=size, render_points_as_spheres=round_, lighting=False
             )

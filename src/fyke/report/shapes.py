@@ -19,19 +19,22 @@ from .bars import (
     draw_knots,
     draw_outline,
     draw_tension,
+    legend_rows,
     line_width,
     name_marks,
+    part_names,
     slack_name,
     tension_bar,
     tension_scale,
 )
-from .parts import Bars, Outline, parts_of
+from .parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
 from .plane import size_of
 from .space import View, box, draw_space, far_to_near, seen_extent
 
 Array = NDArray[np.float64]
 
 LEFT, RIGHT, LEGEND, NUMBERS, COLOUR_BAR, ARROW = 0.64, 0.25, 0.24, 0.42, 0.46, 0.3  # in, around the box
+LEGEND_ROW = 0.13  # in, of each further row
 LEAST = 0.3  # in, of the box in axes that are too small for what stands around it
 ARROW_LENGTH = 0.32  # in, of a current across the line of sight
 ARROW_LEFT, ARROWS_APART = 0.45, 1.55  # in, of the middle of the first, and to the next
@@ -54,22 +57,27 @@ def initial_position(
     )
     if waves is not None:
         flows.append((np.asarray(waves, dtype=float), "waves"))
-    above = LEGEND + (ARROW if flows else 0.0)
+    legend = _legend(net, "free knot", style.SINGLE_COLUMN)
+    above = legend + (ARROW if flows else 0.0)
     figure, ax = _page(result, above=above, below=NUMBERS)
     view = _in_space(ax, result, above=above, below=NUMBERS)
     width = line_width(net.bar_count)
 
     def plain(points: Array, part: Bars) -> None:
-        colour = part.colour or style.BLUE
-        draw_bars(
-            ax, points, net.bars[part.bars], colors=colour, linewidths=0.6 * part.width * width, gid="bars"
-        )
+        options = {"gid": "bars"} if part.colour is None else {"gid": "ropes", "label": part.name}
+        colour, thick = part.colour or style.BLUE, 0.6 * part.width * width
+        draw_bars(ax, points, net.bars[part.bars], colors=colour, linewidths=thick, **options)
 
     seen = view.see(net.positions)
     _draw_parts(ax, view, net, seen, plain)
-    draw_free_knots(ax, seen[:, :2], net.fixed)
+    shown = tied_knots(net)
+    for part in parts_of(net):
+        if isinstance(part, Knots):
+            shown[part.knots] = net.fixed[part.knots]
+    draw_free_knots(ax, seen[shown, :2], net.fixed[shown])
     for place, (flow, words) in enumerate(flows):
-        _draw_flow(figure, view, flow / np.linalg.norm(flow), words, left=ARROW_LEFT + place * ARROWS_APART)
+        corner = ARROW_LEFT + place * ARROWS_APART, figure.get_figheight() - legend - ARROW / 2.0
+        _draw_flow(figure, view, flow / np.linalg.norm(flow), words, corner)
     name_marks(figure)
     return figure
 
@@ -77,8 +85,10 @@ def initial_position(
 @style.styled
 def equilibrium_shape(result: Result) -> Figure:
     """Show the last frame in space: every bar in the colour of its tension, slack bars grey and dashed."""
-    below = NUMBERS + (COLOUR_BAR if np.any(result.tension[-1] > 0.0) else 0.0)
-    figure, ax = _page(result, above=LEGEND, below=below)
+    shown = result.tension[-1][coloured_bars(result.net)]
+    below = NUMBERS + (COLOUR_BAR if np.any(shown > 0.0) else 0.0)
+    legend = _legend(result.net, slack_name(shown), style.SINGLE_COLUMN)
+    figure, ax = _page(result, above=legend, below=below)
     draw_shape(ax, result)
     return figure
 
@@ -87,17 +97,18 @@ def equilibrium_shape(result: Result) -> Figure:
 def draw_shape(ax: Axes, result: Result) -> None:
     """Draw the last frame in space, with axes, colour bar and names, into the rectangle of plain axes as it is now."""
     net, tension = result.net, result.tension[-1]
-    taut = bool(np.any(tension > 0.0))
-    scale = tension_scale(tension)
-    view = _in_space(ax, result, above=LEGEND, below=NUMBERS + (COLOUR_BAR if taut else 0.0))
+    shown = tension[coloured_bars(net)]
+    taut, scale = bool(np.any(shown > 0.0)), tension_scale(shown)
+    legend = _legend(net, slack_name(shown), float(size_of(ax)[0]))
+    view = _in_space(ax, result, above=legend, below=NUMBERS + (COLOUR_BAR if taut else 0.0))
 
     def coloured(points: Array, part: Bars) -> None:
         bars = part.bars[far_to_near(seen, net.bars[part.bars])]
         if part.colour is None:
-            draw_tension(ax, points, net.bars[bars], tension[bars], scale, named=slack_name(tension))
+            draw_tension(ax, points, net.bars[bars], tension[bars], scale, named=slack_name(shown))
         else:
-            width = part.width * line_width(net.bar_count)
-            draw_bars(ax, points, net.bars[bars], colors=part.colour, linewidths=width, label=part.name)
+            options = {"linewidths": part.width * line_width(net.bar_count), "zorder": 2.2, "gid": "ropes"}
+            draw_bars(ax, points, net.bars[bars], colors=part.colour, label=part.name, **options)
 
     seen = view.see(result.position[-1])
     _draw_parts(ax, view, net, seen, coloured)
@@ -137,9 +148,14 @@ def _in_space(ax: Axes, result: Result, *, above: float, below: float) -> View:
     return draw_space(ax, _corners(result), (LEFT, below, width, height))
 
 
-def _draw_flow(figure: Figure, view: View, direction: Array, words: str, *, left: float) -> None:
-    """Draw an arrow as a direction (3,) is seen, with words beside it, above the axes; left: in, of its middle."""
-    up = figure.get_figheight() - LEGEND - ARROW / 2.0
+def _legend(net: Net, other: str, width: float) -> float:
+    """Room (in) of the legend over a net, in so many inches; other: what may be named besides its parts."""
+    return LEGEND + LEGEND_ROW * (legend_rows(part_names(net, other), width) - 1)
+
+
+def _draw_flow(figure: Figure, view: View, direction: Array, words: str, corner: tuple[float, float]) -> None:
+    """Draw an arrow as a direction (3,) is seen, with words beside it; corner: in, of its middle."""
+    left, up = corner
     du, dv = view.axes[:2] @ direction * ARROW_LENGTH / 2.0
     arrow = FancyArrowPatch(
         (left - du, up - dv),

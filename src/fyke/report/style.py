@@ -24,7 +24,7 @@ DOUBLE_COLUMN = 178 / 25.4  # in
 RESOLUTION = 300  # dots per inch
 TYPE, SMALL_TYPE = 7.5, 7.0  # points
 
-BLACK, BLUE, VERMILION, GREEN = "#000000", "#0072B2", "#D55E00", "#009E73"
+BLACK, BLUE, VERMILION, GREEN, ORANGE = "#000000", "#0072B2", "#D55E00", "#009E73", "#E69F00"
 GRID_GREY, SLACK_GREY, FRAME_GREY = "#D9D9D9", "#8C8C8C", "#595959"
 SLACK_DASHES = (0, (2.0, 1.4))
 TENSION_COLOURS = ListedColormap(mpl.colormaps["viridis_r"](np.linspace(0.1, 1.0, 256)), name="fyke tension")
@@ -84,7 +84,12 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
 
 
 def prefixed(largest: float, unit: str) -> tuple[float, str]:
-    """Return factor and unit that write values up to `largest` (SI) in few digits: 0.004, "N" gives 1000, "mN"."""
+    """Return factor and unit that write values up to `largest` (SI) in few digits: 0.004, "N" gives 1000, "mN".
+
+    A prefix would be squared or cubed with its unit, so m² and m³ stay as they are.
+    """
+    if unit.endswith(("²", "³")):
+        return 1.0, unit
     for limit, factor, prefix in ((1e6, 1e-6, "M"), (1e3, 1e-3, "k"), (0.1, 1.0, ""), (1e-4, 1e3, "m")):
         if largest >= limit:
             return factor, prefix + unit

@@ -205,10 +205,13 @@ def _elastic_length(el: Elements, frame: Frame) -> Array:
     while np.any(further := (row < last) & (tension >= el.law_rows[np.minimum(row + 1, last), 1])):
         row = np.where(further, row + 1, row)
     strain, base, slope, coefficient, exponent = el.law_rows[row].T
-    # A row of a law is straight or a power, never both (netting.elastic).
-    straight = (tension - base) / np.where(slope > 0.0, slope, 1.0)
-    power = ((tension - base) / np.where(coefficient > 0.0, coefficient, 1.0)) ** (1.0 / exponent)
-    return np.asarray(el.rest_length * (1.0 + strain + np.where(coefficient > 0.0, power, straight)))
+    above = np.maximum(tension - base, 0.0)
+    curved = np.where(coefficient > 0.0, coefficient, 1.0)
+    power = (above / curved) ** (1.0 / exponent)
+    # Straight, or with a square on top (netting.elastic); written without a difference of near numbers.
+    root = np.sqrt(slope**2 + 4.0 * coefficient * above)
+    sloping = 2.0 * above / np.where(slope > 0.0, slope + root, 1.0)
+    return np.asarray(el.rest_length * (1.0 + strain + np.where(slope > 0.0, sloping, power)))
 
 
 def _masses(system: System, frame: Frame) -> tuple[float, float]:

@@ -12,12 +12,17 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, TableLaw
+from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, QuadraticLaw, TableLaw
 from ..netting.net import Bodies, Panel, Rope
 from ..netting.twine import Twine
 from ..solve.outcome import Outcome
 
-LAWS: dict[str, type[Any]] = {"linear": LinearLaw, "power": PowerLaw, "table": TableLaw}
+LAWS: dict[str, type[Any]] = {
+    "linear": LinearLaw,
+    "power": PowerLaw,
+    "quadratic": QuadraticLaw,
+    "table": TableLaw,
+}
 # Parts of a net, by the attribute of the file and of Net that holds them.
 PARTS = ("panels", "ropes", "bodies")
 Part = Panel | Rope | Bodies

@@ -129,7 +129,9 @@ class Equilibrium:
         if shear is not None:
             add_shear(self._drag(), shear, p.free, p.indptr, b.data)
         places = p.start, p.stride, p.diagonal
-        water.add_wetting(self.u, self.el, b.t, b.length, places, symmetric=False, data=b.data)
+        water.add_wetting(
+            self.x, self.u, self.el, b.t, b.length, places, p.groups, symmetric=False, data=b.data
+        )
 
     def _drag(self) -> Array:
         """Return -dF/dv, the tangent of the water's load by the knots' velocities, as data of the pattern."""

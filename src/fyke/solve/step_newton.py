@@ -162,8 +162,9 @@ class StepNewton:
             )
         places = p.start, p.stride, p.diagonal
         self.surroundings.add_wetting(
-            self.rel, self.el, self.t, self.length, places, symmetric=self.symmetric, data=self.data
-        )
+            self.x, self.rel, self.el, self.t, self.length, places, p.groups,
+            symmetric=self.symmetric, data=self.data,
+        )  # fmt: skip
         self.factorizations += 1
         return self.linear.factor(self.data)
 

@@ -12,18 +12,18 @@ from numpy.typing import NDArray
 from ..case.schema import Case
 from ..netting.faces import faces_of
 from ..netting.net import Net
-from ..netting.panel import panel
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
 from ..water.inertia import AddedMassLaw
-from ..water.laws import KnotLaw, Law
+from ..water.laws import Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
-from .curves import INTERVALS, NO_ANGLES, ROW, bar_curves, knot_curves
+from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import Elements
 from .laws import Coefficients, Water
+from .rigging import rigged
 from .system import Displaced, System
 
 Array = NDArray[np.float64]
@@ -34,27 +34,10 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its gear, in the order of the file."""
+    """Make the net of a case: all its netting in the order of the file, then its ropes, floats and sinkers."""
     twines = case.twines
-    parts = []
-    for gear in case.gear:
-        netting = case.netting[gear.netting]
-        parts.append(
-            panel(
-                twines[netting.twine],
-                mesh=netting.mesh,
-                meshes=gear.meshes,
-                bar_length=netting.bar_length,
-                size=gear.size,
-                knot_diameter=netting.knot_diameter or 0.0,
-                knot_density=netting.knot_density,
-                centre=gear.centre,
-                normal=gear.normal,
-                fixed=gear.fixed,
-                name=gear.name,
-            )
-        )
-    return together(parts)
+    made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
+    return rigged(together([piece.lay(netting, twines[netting.twine]) for piece, netting in made]), case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -107,13 +90,14 @@ def make_system(
     w = water or Water()
     c = coefficients or Coefficients()
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
-    density = np.array([t.density for t in net.twines])[net.twine_of_bar]
+    density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
     volume = area * net.rest_length
-    knot_volume, body_volume = np.pi / 6.0 * net.knot_diameter**3, net.at_knots("volume")
-    knot_only = net.knot_density * knot_volume + net.at_knots("mass")
+    knot_volume = np.pi / 6.0 * net.knot_diameter**3
+    body_mass, body_volume = net.at_knots("mass"), net.at_knots("volume")
+    mass = _to_knots(net, density * volume) + net.knot_density * knot_volume + body_mass
+    sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
+    sinking += body_mass - w.density * body_volume
     knot_volume = knot_volume + body_volume
-    mass = _to_knots(net, density * volume) + knot_only
-    sinking = _to_knots(net, (density - w.density) * volume) + knot_only - w.density * knot_volume
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
@@ -155,64 +139,28 @@ def make_system(
 
 def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
     """Fields of Elements that say how the water drags."""
-    bars, knots = c.bars, c.knots
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
             scale[panel.bars] = 0.0
             disc[panel.knots] = 0.0
-    bodies = 0.5 * w.density * net.at_knots("drag_area")
-    zeros = np.zeros(len(scale), dtype=np.int32), np.zeros(len(disc), dtype=np.int32)
-    fields: dict[str, Any] = {
+    across, along, curves = bar_curves(c.bars)
+    reference, curve = knot_curve(c.knots)
+    own = disc * reference
+    drag = own + 0.5 * w.density * net.at_knots("drag_area")
+    return {
+        "plain": curves is CONSTANT_BARS and curve is NONE,
+        "normal_drag": scale * across,
+        "tangential_drag": scale * along,
+        "knot_drag": drag,
         "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
+        "bar_curves": curves,
+        "knot_reynolds": net.knot_diameter / w.kinematic_viscosity,
+        "knot_share": np.divide(own, drag, out=np.zeros_like(drag), where=drag > 0.0),
+        "knot_curve": curve,
         "drag_slopes": np.zeros((4, 0)),
         "knot_slopes": np.zeros(0),
     }
-    if isinstance(bars, ConstantBar) and isinstance(knots, ConstantKnot):
-        return fields | {
-            "plain": True,
-            "normal_drag": scale * bars.normal,
-            "tangential_drag": scale * bars.tangential,
-            "knot_drag": disc * knots.drag + bodies,
-            "bar_curve": zeros[0],
-            "bar_curves": np.zeros((1, INTERVALS, ROW)),
-            "friction": 0.0,
-            "angles": NO_ANGLES,
-            "knot_curve": zeros[1],
-            "knot_curves": np.zeros((1, INTERVALS, 5)),
-        }
-    thickness, bar_curve = np.unique(net.bar_diameter, return_inverse=True)
-    curves = bar_curves(bars, thickness / w.kinematic_viscosity)
-    knot_drag, knot_curve, rows = _knot_curves(net, w, knots, disc, bodies)
-    return fields | {
-        "plain": False,
-        "normal_drag": scale * curves.reference[bar_curve],
-        "tangential_drag": scale * curves.along[bar_curve],
-        "knot_drag": knot_drag,
-        "bar_curve": bar_curve.astype(np.int32),
-        "bar_curves": curves.rows,
-        "friction": curves.friction,
-        "angles": curves.angles,
-        "knot_curve": knot_curve,
-        "knot_curves": rows,
-    }
-
-
-def _knot_curves(
-    net: Net, w: Water, law: KnotLaw, disc: Array, bodies: Array
-) -> tuple[Array, NDArray[np.int32], Array]:
-    """Drag (n,) kg/m of knots and bodies at the reference speed, which curve each has (n,), and these.
-
-    disc: (n,) 1/2 rho pi/4 d^2 of the knots; bodies: (n,) 1/2 rho C_D A, which does not change with the speed.
-    """
-    kinds, which = np.unique(np.column_stack([net.knot_diameter, disc, bodies]), axis=0, return_inverse=True)
-    reference, rows = knot_curves(law, kinds[:, 0] / w.kinematic_viscosity)
-    own, fixed = kinds[:, 1] * reference, kinds[:, 2]
-    whole = own + fixed
-    share = np.divide(own, whole, out=np.ones_like(whole), where=whole > 0.0)
-    rows[:, :, :4] *= share[:, None, None]
-    rows[:, :, 0] += (1.0 - share)[:, None]
-    return whole[which.reshape(-1)], which.reshape(-1).astype(np.int32), rows
 
 
 def ringing(net: Net, stiffness: Array, knot_mass: Array) -> Array:

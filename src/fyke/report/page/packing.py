@@ -93,9 +93,10 @@ def _quantity(result: Result, kept: NDArray[np.int64], quantity: BarQuantity) ->
 
 
 def _part(part: Bars | Knots | Outline) -> dict[str, Any]:
-    about = {"name": part.name, "colour": part.colour}
+    about: dict[str, Any] = {"name": part.name, "colour": part.colour}
     if isinstance(part, Outline):
         return about | {"kind": "outline", "points": part.points.tolist(), "width": part.width}
+    about["own"] = part.own
     if isinstance(part, Bars):
         return about | {"kind": "bars", "bars": deflated(part.bars.astype(np.uint32)), "width": part.width}
     knots = deflated(part.knots.astype(np.uint32))

@@ -93,6 +93,8 @@ def render(
         accounts=words.account_words(figures),
         energy=words.energy_rows(figures),
         panels=[(p.name, words.panel_rows(result, p)) for p in result.net.panels],
+        part_columns=words.PART_COLUMNS,
+        part_table=words.part_table(figures),
         supports=words.support_rows(result, origin.system),
         comparison=comparison,
         pictures=_pictures(result, origin, comparison),

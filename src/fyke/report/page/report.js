@@ -80,15 +80,24 @@
       }
       return { x, y, z, c };
     };
+    const coloured = scene.parts.filter((part) => part.kind === "bars" && !part.colour);
     const largest = (frame, q) => {
       let top = 0;
-      for (let bar = 0; bar < bars.length / 2; bar++) top = Math.max(top, values[q](frame, bar));
+      for (const part of coloured) for (const bar of part.bars) top = Math.max(top, values[q](frame, bar));
       return top || 1;
     };
+    /* What hangs at a knot, and the rope that a bar is of, by number. */
+    const hangs = {}, roped = {};
+    for (const part of scene.parts) {
+      const said = `${part.name} ${part.own || ""}`.trim();
+      if (part.kind === "knots" && part.own !== undefined && part.name !== "fixed knot") for (const k of part.knots) hangs[k] = `${hangs[k] || ""}<br>${said}`;
+      if (part.kind === "bars" && part.colour) for (const bar of part.bars) roped[bar] = `${said}, `;
+    }
     const many = bars.length / 2 > 4000;
     const traces = (frame, q) => {
       const made = [], pull = (bar) => values[0](frame, bar), about = scene.quantities[q], top = largest(frame, q);
-      let coloured = false;
+      let scaled = false;
+      const named = new Set(), first = (name) => !named.has(name) && Boolean(named.add(name));
       for (const part of scene.parts) {
         if (part.kind === "outline") {
           const [x, y, z] = [0, 1, 2].map((axis) => part.points.map((p) => p[axis]));
@@ -100,9 +109,10 @@
           const slack = part.colour ? [] : every.filter((bar) => !(pull(bar) > 0));
           const t = lines(taut, frame, q), width = (many ? 2 : 5) * part.width;
           const line = part.colour ? { color: part.colour, width } : { color: t.c, colorscale: scale(), cmin: 0, cmax: top, width,
-            showscale: !coloured, colorbar: { title: { text: `${about.name} (${about.unit})`, side: "right" }, thickness: 12, len: 0.7, x: 1, xanchor: "right" } };
-          coloured = coloured || !part.colour;
-          made.push({ type: "scatter3d", mode: "lines", name: part.name, x: t.x, y: t.y, z: t.z, hoverinfo: "skip", showlegend: false, line });
+            showscale: !scaled, colorbar: { title: { text: `${about.name} (${about.unit})`, side: "right" }, thickness: 12, len: 0.7, x: 1, xanchor: "right" } };
+          scaled = scaled || !part.colour;
+          made.push({ type: "scatter3d", mode: "lines", name: part.name, x: t.x, y: t.y, z: t.z, hoverinfo: "skip",
+            showlegend: Boolean(part.colour) && first(part.name), line });
           const s = lines(slack, frame, q);
           made.push({ type: "scatter3d", mode: "lines", name: `slack bars (${slack.length} of ${every.length})`, x: s.x, y: s.y, z: s.z,
             hoverinfo: "skip", showlegend: slack.length > 0, visible: slack.length > 0,
@@ -110,7 +120,7 @@
           made.push(middles(every, frame));
         } else {
           const knots = Array.from(part.knots), [x, y, z] = [0, 1, 2].map((axis) => knots.map((k) => at(frame, k, axis)));
-          made.push({ type: "scatter3d", mode: "markers", name: part.name, x, y, z, hoverinfo: "skip", showlegend: knots.length > 0,
+          made.push({ type: "scatter3d", mode: "markers", name: part.name, x, y, z, hoverinfo: "skip", showlegend: knots.length > 0 && first(part.name),
             marker: { symbol: SYMBOLS[part.marker], size: (many ? 2 : 3.5) * part.size, color: ink(part.colour) } });
         }
       }
@@ -121,11 +131,11 @@
       marker: { size: many ? 4 : 9, color: "rgba(0,0,0,0)", opacity: 0 } });
     const middles = (every, frame) => {
       const [x, y, z] = [0, 1, 2].map((axis) => every.map((bar) => (at(frame, bars[2 * bar], axis) + at(frame, bars[2 * bar + 1], axis)) / 2));
-      return { ...unseen({ x, y, z }, every.map((bar) => `${label(bar)}<br>${numbers(bar, frame)}`)), name: "bars" };
+      return { ...unseen({ x, y, z }, every.map((bar) => `${roped[bar] || ""}${label(bar)}<br>${numbers(bar, frame)}`)), name: "bars" };
     };
     const knotNames = (frame) => {
       const every = scene.knots.map((_, k) => k), [x, y, z] = [0, 1, 2].map((axis) => every.map((k) => at(frame, k, axis)));
-      const text = every.map((k) => `${fixed[k] ? "fixed " : ""}knot ${scene.knots[k]}<br>x ${x[k].toFixed(4)} m<br>y ${y[k].toFixed(4)} m<br>z ${z[k].toFixed(4)} m`);
+      const text = every.map((k) => `${fixed[k] ? "fixed " : ""}knot ${scene.knots[k]}<br>x ${x[k].toFixed(4)} m<br>y ${y[k].toFixed(4)} m<br>z ${z[k].toFixed(4)} m${hangs[k] || ""}`);
       return { ...unseen({ x, y, z }, text), name: "knots" };
     };
 
