@@ -21,6 +21,7 @@ from fyke.report.figures import equilibrium_shape, initial_position, tension_his
 from fyke.report.gltf import write_gltf
 from fyke.report.parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
 from fyke.report.plan import _laid_flat
+from fyke.report.sections import _cut, _rows, _triangles, sections
 from fyke.results.parts import by_part, part_figures, part_words, write_parts
 from fyke.results.volume import volume_history
 from fyke.solve.result import Result
@@ -256,3 +257,31 @@ def test_a_flat_panel_is_no_sack():
     net = panel(TWINE, mesh="diamond", meshes=(4, 4), bar_length=0.1, size=(0.55, 0.55))
     result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)))
     assert volume_history(result) is None
+
+
+def test_cuts_and_rows_of_a_cone_are_those_of_geometry(hung):
+    """As built, the cut of a cone is its two slants, and its rows are circles of known radius."""
+    net = frustum(NETTING, (12, 4), diameters=(0.0, 0.8), height=0.6, centre=TOP)
+    x = net.positions
+    lines = _cut(x, _triangles(net, [0]), np.array([0.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0]))
+    # Knots lie on the slants r = 0.4 (1 + (z + 0.1) / 0.6), chords of 12 sides within them by cos(pi/12) at most.
+    way, z = lines.reshape(-1, 2).T
+    slant = 0.4 * (1.0 + (z + 0.1) / 0.6)
+    assert np.all(np.abs(way) <= slant + 1e-12) and np.all(np.abs(way) >= np.cos(np.pi / 12) * slant - 1e-12)
+    assert (way.min(), way.max(), z.min()) == pytest.approx((-0.4, 0.4, -0.7))
+    # Each slant is covered once.
+    length = np.linalg.norm(lines[:, 1] - lines[:, 0], axis=1).sum()
+    assert length == pytest.approx(2.0 * np.hypot(0.4, 0.6), rel=1e-2)
+    rows = _rows(net, [0])
+    assert rows[0][0] == pytest.approx(-0.1) and len(rows) == 4
+    for height, knots in rows:
+        assert np.hypot(*x[knots, :2].T) == pytest.approx(np.full(13, 0.4 * (1.0 + (height + 0.1) / 0.6)))
+        assert knots[0] == knots[-1] and len(np.unique(knots)) == 12
+    figure = sections(hung, current=(0.3, 0.0, 0.0))
+    assert [ax.get_xlabel() for ax in figure.axes] == ["Along the flow (m)", "x (m)"]
+    assert "current, 0.3 m/s" in [text.get_text() for text in figure.texts]
+
+
+def test_a_panel_has_no_sections():
+    net = panel(TWINE, mesh="diamond", meshes=(4, 4), bar_length=0.1, size=(0.55, 0.55))
+    assert sections(fyke.solve_static(fyke.make_system(net))) is None

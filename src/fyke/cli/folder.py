@@ -23,6 +23,7 @@ PICTURES = (
     "equilibrium_shape",
     "tension_plan",
     "tension_histogram",
+    "sections",
     "histories",
     "comparison",
     "waves",
