@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import replace
 from typing import Annotated, Literal
 
@@ -28,7 +29,7 @@ class RopeSpec(Part):
     )
 
 
-class BodiesSpec(Part):
+class BodiesSpec(Part, ABC):
     """Bodies at knots, all alike, taken as spheres."""
 
     along: str | None = Field(
@@ -54,13 +55,13 @@ class BodiesSpec(Part):
     drag: Coefficient = Field(default=SPHERE_DRAG, description="C_D of each one, on pi d^2 / 4")
 
     @property
+    @abstractmethod
     def force(self) -> float | None:
         """The force (N) with which each one acts in water, where it is given."""
-        raise NotImplementedError
 
+    @abstractmethod
     def sphere(self, water: float, gravity: float) -> Sphere:
         """Return one of them; water: density of the water (kg/m3), gravity: m/s2."""
-        raise NotImplementedError
 
     def _given(self) -> Sphere | None:
         """Return one of them by its mass and diameter, None where these are not given."""

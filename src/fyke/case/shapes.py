@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from math import hypot, pi, sqrt
 from typing import Annotated, Any, Literal
 
@@ -49,7 +50,7 @@ class BottomSpec(Table):
     )
 
 
-class RoundSpec(Piece):
+class RoundSpec(Piece, ABC):
     """Netting that closes round an upright axis."""
 
     meshes: tuple[MeshCount, MeshCount] = Field(
@@ -62,9 +63,9 @@ class RoundSpec(Piece):
     )
     fixed: RimEdge = Field(default="top", description="knots that are held; edges: of both rims")
 
+    @abstractmethod
     def rims(self, netting: NettingSpec) -> tuple[tuple[float, float], float] | None:
         """Return the diameters of the lower and the upper rim and the height, m; None where they are not known."""
-        raise NotImplementedError
 
     @property
     def floor(self) -> BottomSpec | None:

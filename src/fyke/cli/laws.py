@@ -65,8 +65,7 @@ def list_laws(*, json: bool) -> int:
 
 
 def _described(law: type[Law] | type[AddedMassLaw]) -> dict[str, Any]:
-    # Every law is a dataclass, which its type does not say.
-    known = fields(law)  # type: ignore[arg-type]
+    known = fields(law)  # type: ignore[arg-type] # every law is a dataclass, which its type does not say
     asked = [one for one in known if _asked(one)]
     ranges = ["that of its points"] if asked else _ranges(law())
     return {
