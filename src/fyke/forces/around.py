@@ -100,7 +100,7 @@ class Around(NamedTuple):
         return np.ascontiguousarray(rows[:, self.margin : self.margin + self.knot_count].T)
 
 
-@njit(**OPTIONS)
+@njit(forceinline=True, **OPTIONS)
 def own_fields(old, here, water, fields, around):
     """Where the fields of a block's knots lie: array, pitch of its rows, places of x, v and u of the first knot.
 
@@ -110,7 +110,7 @@ def own_fields(old, here, water, fields, around):
     return fields, width, old * width + here, (old + 3) * width + here, WATER * width + water
 
 
-@njit(**OPTIONS)
+@njit(forceinline=True, **OPTIONS)
 def neighbours(slot, old, here, water, fields, around, near):
     """Where the fields of the neighbours of a block's knots lie in one slot, as own_fields says it.
 
@@ -130,7 +130,7 @@ def neighbours(slot, old, here, water, fields, around, near):
     return near, PITCH, 0, 3 * PITCH, 6 * PITCH
 
 
-@njit(**OPTIONS)
+@njit(forceinline=True, **OPTIONS)
 def extent(block, around):
     """First column and number of the knots of a block, rounded up to a STRIDE with knots without anything."""
     low = block * BLOCK

@@ -74,11 +74,12 @@ def share_laws(rank, team, old, fields, el, around, law):
         laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), old, fields, el, around, law)
 
 
-@njit(**OPTIONS)
-def block_force(block, old, fields, uniform, el, around, law, work):
+@njit(forceinline=True, **OPTIONS)
+def block_force(block, old, fields, uniform, curves, around, law, work):
     """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
-    old: row of x in fields; uniform: the water has the same velocity everywhere; law: (2, m + 1) as laws_of_bars gives
+    old: row of x in fields; uniform: the water has the same velocity everywhere; curves: bar_curves and
+    knot_curve of Elements; law: (2, m + 1) as laws_of_bars gives
     it, used where laws are not linear; work: arrays near (NEAR_ROWS x PITCH,) and g (WORK_ROWS x PITCH,), OFFSET zero.
     """
     near, g = work
@@ -86,9 +87,10 @@ def block_force(block, old, fields, uniform, el, around, law, work):
     water = around.margin if uniform else here
     own = own_fields(old, here, water, fields, around)
     _own_forces(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, g)
-    if el.knot_curve.shape[0] > 0:
-        _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, el.knot_curve, g)
-    by_law = varies(el.bar_curves)
+    of_bars, of_knots = curves
+    if of_knots.shape[0] > 0:
+        _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, of_knots, g)
+    by_law = varies(of_bars)
     for slot in range(around.first[block], around.first[block + 1]):
         begin, end = around.begin[slot], around.end[slot]
         row = around.bars_row[slot] * BAR_ROWS
@@ -104,7 +106,7 @@ def block_force(block, old, fields, uniform, el, around, law, work):
             reference = drags, across, drags, along
             drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
             _flow_past(begin, end, own, others, (around.bars, (row + REYNOLDS) * BLOCK), g)
-            vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, el.bar_curves)
+            vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, of_bars)
             settle()
         _add_bars(slot, own, others, (slopes, slope), (drags, across, along), around, g)
         if around.both[slot]:
@@ -119,7 +121,7 @@ def block_force(block, old, fields, uniform, el, around, law, work):
                 )
 
 
-@njit(**OPTIONS)
+@njit(forceinline=True, **OPTIONS)
 def _own_forces(size, own, first, knots, g):
     """Weight and knot drag into rows 0 to 2 of g, speed of the water past the knots into SPEED.
 
@@ -175,7 +177,7 @@ def _flow_past(begin, end, own, others, scale, g):
         keep(g, ALONG * PITCH + i, along)
 
 
-@njit(**OPTIONS)
+@njit(forceinline=True, **OPTIONS)
 def _add_bars(slot, own, others, tensions, resistance, around, g):
     """Add the forces of one slot's bars to rows 0 to 2 of g; those on their far ends into FAR.
 

@@ -55,7 +55,7 @@ STEPS_PER_CALL, WORK_PER_CALL = (200, 2000), 50_000_000
 TINY_SQUARE = 1e-300
 
 
-@njit(**OPTIONS)
+@njit(forceinline=True, **OPTIONS)
 def _kick_and_drift(block, old, new, kick, drift, around, inverse, fields, g):
     """Change velocities of a block by the forces over a time kick (s), then positions over a time drift (s).
 
@@ -96,7 +96,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
     blocks = around.first.shape[0] - 1
     first, last = blocks * rank // team, blocks * (rank + 1) // team
     near, g = np.zeros(NEAR_ROWS * PITCH), np.zeros(WORK_ROWS * PITCH)
-    lag = 0
+    lag, curves = 0, (el.bar_curves, el.knot_curve)
     for step in range(steps + 1):
         old = HERE_ROWS * (step & 1)
         new = HERE_ROWS - old
@@ -110,7 +110,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
         for block in range(first, last):
             if renew:
                 fastest = max(fastest, block_inverse_masses(block, old, fields, around, near, g, inverse))
-            block_force(block, old, fields, uniform, el, around, law, (near, g))
+            block_force(block, old, fields, uniform, curves, around, law, (near, g))
             _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, fields, g)
         rates[step & 1, rank * LINE] = fastest
         settle()
