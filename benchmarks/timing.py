@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import platform
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import numba
@@ -46,6 +46,17 @@ def best(work: Callable[[], object], repeats: int = 7) -> float:
     return min(times)
 
 
+def best_in_turn(works: Mapping[str, Callable[[], object]], repeats: int) -> dict[str, float]:
+    """Shortest wall time (s) of each of several works, called in turn so that all meet the same machine."""
+    found = dict.fromkeys(works, np.inf)
+    for turn in range(repeats + 1):
+        for name, work in works.items():
+            began = time.perf_counter()
+            work()
+            found[name] = min(found[name], time.perf_counter() - began) if turn else np.inf
+    return found
+
+
 @njit
 def many_forces(count, x, v, u, el, rel, g, out):
     """Call the force evaluation so many times without going back to Python."""
@@ -59,25 +70,32 @@ def in_motion(system: fyke.System, speed: float) -> fyke.State:
     return fyke.State(0.0, x + rng.normal(scale=1e-3, size=x.shape), rng.normal(scale=speed, size=x.shape))
 
 
-def force_per_bar(system: fyke.System, speed: float = 0.0) -> float:
-    """Seconds of one force evaluation over the number of bars, of a net in motion at this speed (m/s)."""
-    start = in_motion(system, speed)
+def forces_of(system: fyke.System, start: fyke.State, count: int) -> Callable[[], object]:
+    """Return a call of so many force evaluations."""
     x, v = start.position, start.velocity
     u = system.current.velocity(x, 0.0)
-    rel, g = work_arrays(len(x))
-    out = np.empty_like(x)
-    count = max(1, 200_000 // system.net.bar_count)
-    args = (count, x, v, u, system.elements, rel, g, out)
-    return best(lambda: many_forces(*args), 60) / count / system.net.bar_count
+    args = (count, x, v, u, system.elements, *work_arrays(len(x)), np.empty_like(x))
+    return lambda: many_forces(*args)
 
 
-def leap_seconds(system: fyke.System, start: fyke.State, threads: int, steps: int) -> float:
-    """Seconds of one leapfrog step, without the conversions at the ends of a call."""
+def force_per_bar(system: fyke.System) -> float:
+    """Seconds of one force evaluation over the number of bars."""
+    count = max(1, 50_000 // system.net.bar_count)
+    return best(forces_of(system, in_motion(system, 0.0), count), 200) / count / system.net.bar_count
+
+
+def leaps_of(system: fyke.System, start: fyke.State, threads: int, steps: int) -> Callable[[], object]:
+    """Return a call of so many leapfrog steps, and one more, without the conversions at the ends of a call."""
     run = fyke.Symplectic().start(system, start)
     run.threads = threads
     assert run.advance(steps * run.step) == "ok"
     h = 0.7 * run.step
-    return best(lambda: run.leap(h, steps, True)) / (steps + 1)
+    return lambda: run.leap(h, steps, True)
+
+
+def leap_seconds(system: fyke.System, start: fyke.State, threads: int, steps: int) -> float:
+    """Seconds of one leapfrog step."""
+    return best(leaps_of(system, start, threads, steps), 40) / (steps + 1)
 
 
 def table_of(rows: Sequence[Row]) -> str:
