@@ -71,7 +71,7 @@ SPOILT = {
     "wrong unit": (
         BAR,
         'bar_length = "30 kg"',
-        ("line 10, [netting.main] bar_length", '"30 kg"', "mm, cm", "'kg' is no length"),
+        ("line 10, [netting.main] bar_length", '"30 kg"', "mm, cm", "'kg' is a unit of mass"),
     ),
     "unit of another kind": (
         BAR,
@@ -197,10 +197,20 @@ SPOILT = {
         '"edge"',
         ("[[gear]] 1 fixed", '"edge"', '"corners"', 'did you mean "edges"?'),
     ),
-    "hexagonal mesh": (
+    "hexagonal mesh without its long bars": (
         '"diamond"',
         '"hexagonal"',
-        ("line 9, [netting.main] mesh", '"hexagonal"', '"diamond" or "square"', "not built yet"),
+        ("[netting.main] long_bar", "nothing", "four bars of bar_length", 'add long_bar = "45 mm"'),
+    ),
+    "long bars of diamonds": (
+        '"diamond"',
+        '"diamond"\nlong_bar = "45 mm"',
+        ("line 10, [netting.main] long_bar", "diamond mesh", "hexagonal", "leave it out"),
+    ),
+    "mesh unknown": (
+        '"diamond"',
+        '"hexagon"',
+        ("line 9, [netting.main] mesh", '"hexagon"', '"square"', 'did you mean "hexagonal"?'),
     ),
     "material unknown": (
         '"PA"',
@@ -507,4 +517,5 @@ def test_message_fits_a_terminal():
     lines = str(caught.value).splitlines()
     assert max(map(len, lines)) <= 80
     assert lines[0] == "a/b/c.toml, line 10, [netting.main] bar_lenght"
-    assert [line.split()[0] for line in lines[1:4]] == ["found", "allowed", "cure"]
+    labelled = [line.split()[0] for line in lines[1 : lines.index("")] if line[2] != " "]
+    assert labelled == ["found", "allowed", "cure"]

@@ -161,6 +161,24 @@ def test_template_is_the_example_panel_and_shows_every_key():
     assert {key for key in keys if key not in template()} == set()
 
 
+def gear_of_the_template(lines):
+    """Numbers of the lines that show what gear there may be beside the panel."""
+    first = lines.index(
+        "# Netting round an axis, and what hangs on netting; every part has a name of its own:"
+    )
+    return range(first + 1, lines.index("", first))
+
+
+@pytest.mark.parametrize("left_out", [("diameter", "height"), ("hanging_ratio",)])
+def test_the_gear_of_the_template_can_be_used(left_out):
+    lines = template().splitlines()
+    parts = gear_of_the_template(lines)
+    block = [lines[i][2:] for i in parts]
+    block[:10] = [line for line in block[:10] if not line.startswith(left_out)]
+    case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
+    assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
+
+
 def test_every_commented_line_of_the_template_can_be_used(tmp_path):
     (tmp_path / "measured.csv").write_text("knot,x,y,z\n")
     (tmp_path / "current.csv").write_text("time,u,v,w\n10800,0.5,0,0\n21600,0.6,0,0\n")
@@ -173,8 +191,10 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
         lines.index("", waves),
     )
+    parts = gear_of_the_template(lines)
     for number, line in enumerate(lines):
-        if not line.startswith("# ") or "=" not in line or line[2:].startswith(("The", "A ", "For", "By")):
+        words = ("The", "A ", "For", "By")
+        if not line.startswith("# ") or "=" not in line or line[2:].startswith(words) or number in parts:
             continue
         key = line[2:].split("=")[0].strip()
         shown = [line[2:] if i == number else old for i, old in enumerate(lines)]
@@ -182,6 +202,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [
                 old for old in shown if not old.startswith({"law": "youngs", "hanging_ratio": "size"}[key])
             ]
+        if key == "long_bar":
+            shown = [old.replace('mesh = "diamond"', 'mesh = "hexagonal"') for old in shown]
         if key == "packing":
             shown = [
                 old.removeprefix("# ") if "rtex =" in old else old

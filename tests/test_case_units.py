@@ -34,6 +34,11 @@ from fyke.case.units import UnitError, read_text
         (units.DENSITY, "1.14 g/cm3", 1140.0),
         (units.DENSITY, "1025 kg/m³", 1025.0),
         (units.DENSITY, "998.2 g/l", 998.2),
+        (units.LINEAR_DENSITY, "2000 tex", 2e-3),
+        (units.LINEAR_DENSITY, "9000 den", 1e-3),
+        (units.LINEAR_DENSITY, "23 dtex", 2.3e-6),
+        (units.LINEAR_DENSITY, "1.5 ktex", 1.5e-3),
+        (units.LINEAR_DENSITY, "5 g/m", 5e-3),
         (units.FORCE, "1 kgf", 9.80665),
         (units.FORCE, "2.5 kN", 2500.0),
         (units.VISCOSITY, "1.05 cSt", 1.05e-6),
@@ -51,7 +56,7 @@ def test_value_in_si_is_the_nearest_double(kind, text, si):
 @pytest.mark.parametrize(
     ("kind", "text", "cure"),
     [
-        (units.LENGTH, "30 kg", "'kg' is no length"),
+        (units.LENGTH, "30 kg", "'kg' is a unit of mass, and a length is asked"),
         (units.LENGTH, "30 kPa", "'kPa' is a unit of pressure"),
         (units.LENGTH, "30 MM", 'did you mean "30 mm"?'),
         (units.LENGTH, "3 fathoms", 'did you mean "3 fathom"?'),

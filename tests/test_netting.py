@@ -101,7 +101,7 @@ def test_a_line_has_its_loads_where_they_were_put(nylon):
 def test_material_table():
     """Densities as tabled; moduli from EA/MBL x MBL/d^2 by hand: 5 x 207e6 x 4/pi = 1.318 GPa for nylon."""
     assert {m.name: m.density for m in MATERIALS.values()} == {
-        "PA": 1140.0, "PES": 1380.0, "UHMWPE": 975.0, "PE": 950.0, "PP": 910.0
+        "PA": 1140.0, "PES": 1380.0, "UHMWPE": 975.0, "PE": 950.0, "PP": 910.0, "CuZn": 8410.0
     }  # fmt: skip
     assert MATERIALS["PA"].youngs_modulus == pytest.approx(1.3178e9, rel=1e-4)
     assert MATERIALS["PE"].youngs_modulus == pytest.approx(439.7e6, rel=1e-3)

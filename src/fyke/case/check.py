@@ -7,28 +7,30 @@ from dataclasses import dataclass
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
-from pydantic import ValidationError
+from pydantic import TypeAdapter, ValidationError
 
-from ..netting.lattice import flat_strain
 from ..netting.twine import MATERIALS, PACKING, Material, diameter_of
 from .added_mass import added_mass_file_problems, added_mass_findings
 from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
 from .fields import Table
-from .gear import NettingSpec, PanelSpec
+from .gear import NettingSpec, Part, Piece, Sheet
+from .gear_check import gear_findings, reference
 from .keys import nearest
 from .places import Path
-from .schema import Compare, DynamicSolve, Output, Water
+from .rigging import BodiesSpec, RopeSpec
+from .schema import Compare, DynamicSolve, Gear, Output, Water
 from .twine import MaterialSpec, TableSpec, TwineSpec
 from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-LARGEST_STRAIN = 0.2  # of the unloaded flat panel
+RIGGING = {"rope", "sinkers", "floats"}  # kinds of gear that are not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
 Model = TypeVar("Model", bound=Table)
+_GEAR: TypeAdapter[Part] = TypeAdapter(Gear)
 
 
 @dataclass(frozen=True)
@@ -39,14 +41,14 @@ class Parts:
     materials: dict[str, Material]
     twines: dict[str, TwineSpec]
     nettings: dict[str, NettingSpec]
-    panels: dict[int, PanelSpec]
+    gear: dict[int, Part]
     folder: FilePath
 
     @classmethod
     def of(cls, raw: dict[str, Any], folder: FilePath) -> Parts:
         """Take a raw case apart; folder: where relative file names count from."""
         gear = raw.get("gear")
-        panels = {i: _valid(PanelSpec, part) for i, part in enumerate(gear if isinstance(gear, list) else [])}
+        parts = {i: _part(one) for i, one in enumerate(gear if isinstance(gear, list) else [])}
         own = {name: spec.material(name) for name, spec in _named(MaterialSpec, raw, "material").items()}
         twines = _named(TwineSpec, raw, "twine")
         for twine in twines.values():
@@ -56,7 +58,7 @@ class Parts:
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
             _named(NettingSpec, raw, "netting"),
-            {i: panel for i, panel in panels.items() if panel is not None},
+            {i: part for i, part in parts.items() if part is not None},
             folder,
         )
 
@@ -66,12 +68,47 @@ class Parts:
         solve = self.raw.get("solve")
         return not isinstance(solve, dict) or solve.get("kind", "static") == "static"
 
+    @property
+    def pieces(self) -> dict[int, Piece]:
+        """Gear that is netting, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, Piece)}
+
+    @property
+    def ropes(self) -> dict[int, RopeSpec]:
+        """Gear that is ropes, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
+
+    @property
+    def bodies(self) -> dict[int, BodiesSpec]:
+        """Gear that is floats and sinkers, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, BodiesSpec)}
+
+    @property
+    def netting_names(self) -> list[str]:
+        """Names of everything that is netting and of what may be, valid or not, bottoms included."""
+        names = []
+        for index, keys in self.gear_tables():
+            if not RIGGING & {keys.get("kind") if isinstance(keys.get("kind"), str) else ""}:
+                name = self.name_of(index)
+                names += [name, f"{name} bottom".strip()] if "bottom" in keys else [name]
+        return names
+
+    def name_of(self, index: int, sheet: Sheet | None = None) -> str:
+        """Name that a part of the gear will have, or the bottom of one, a sheet that is sewn to another."""
+        tables = dict(self.gear_tables())
+        name = tables[index].get("name", str(index + 1) if len(tables) > 1 else "")
+        return f"{name} bottom".strip() if sheet is not None and sheet.sewn else str(name)
+
+    def items(self, table: str) -> list[tuple[str, Any]]:
+        """Twines or nettings by name, whatever they are."""
+        return _items(self.raw, table)
+
     def tables(self, table: str) -> list[tuple[str, dict[str, Any]]]:
         """Twines or nettings as they were written, valid or not."""
         return [(name, part) for name, part in _items(self.raw, table) if isinstance(part, dict)]
 
-    def panel_tables(self) -> list[tuple[int, dict[str, Any]]]:
-        """Panels as they were written, valid or not."""
+    def gear_tables(self) -> list[tuple[int, dict[str, Any]]]:
+        """Parts of the gear as they were written, valid or not."""
         gear = self.raw.get("gear")
         return [
             (i, part)
@@ -86,11 +123,9 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _twine_keys(("twine", name), keys, parts)
         yield from _thickness_keys(("twine", name), keys)
     for name, keys in parts.tables("netting"):
-        yield from _reference(("netting", name, "twine"), keys, "twine", parts)
-    for index, keys in parts.panel_tables():
-        yield from _reference(("gear", index, "netting"), keys, "netting", parts)
-        yield from _panel_keys(("gear", index), keys, parts)
-    yield from _panel_names(parts)
+        there = [one for one, _ in parts.items("twine")]
+        yield from reference(("netting", name, "twine"), keys, "twine", there)
+        yield from _long_bar(("netting", name, "long_bar"), keys)
     for name, _ in parts.tables("material"):
         if name in MATERIALS:
             allowed = "a name of its own: " + ", ".join(MATERIALS) + " are there already"
@@ -105,8 +140,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
-    for index, panel in parts.panels.items():
-        yield from _frame(("gear", index), panel, parts.nettings.get(panel.netting))
+    yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)
@@ -131,6 +165,13 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
 def _valid(model: type[Model], part: Any) -> Model | None:
     try:
         return model.model_validate(part)
+    except ValidationError:
+        return None
+
+
+def _part(part: Any) -> Part | None:
+    try:
+        return _GEAR.validate_python(part)
     except ValidationError:
         return None
 
@@ -168,6 +209,15 @@ def _twine_keys(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Find
         yield (*path, "youngs_modulus"), found, allowed, cure
 
 
+def _long_bar(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
+    if keys.get("mesh") == "hexagonal" and "long_bar" not in keys:
+        allowed = "long_bar, m: hexagons have four bars of bar_length and two of long_bar"
+        yield path, "nothing", allowed, 'add long_bar = "45 mm"'
+    if keys.get("mesh") in ("diamond", "square") and "long_bar" in keys:
+        found = f"long_bar with {keys['mesh']} mesh"
+        yield path, found, "long_bar of hexagonal mesh", 'leave it out, or write mesh = "hexagonal"'
+
+
 def _thickness_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
     """What is wrong with the keys that say how thick a twine is."""
     if not {"diameter", "rtex"} & keys.keys():
@@ -201,17 +251,6 @@ def _table_law(path: Path, twine: TwineSpec) -> Iterator[Finding]:
         yield path, found, "as many tensions as strains", "give one tension (N) for every strain"
 
 
-def _reference(path: Path, keys: dict[str, Any], table: str, parts: Parts) -> Iterator[Finding]:
-    name = keys.get(table)
-    there = [one for one, _ in _items(parts.raw, table)]
-    if not isinstance(name, str) or name in there:
-        return
-    allowed = f"a {table} of this file: " + (", ".join(written(one) for one in there) or "there is none yet")
-    near = nearest(name, there)
-    cure = f'did you mean "{near}"?' if near else f"add a table [{table}.{name}] or name one that is there"
-    yield path, written(name), allowed, cure
-
-
 def _thickness(path: Path, netting: NettingSpec, twine: TwineSpec | None) -> Iterator[Finding]:
     bar = netting.bar_length
     if twine and twine.diameter >= bar:
@@ -227,50 +266,6 @@ def _thickness(path: Path, netting: NettingSpec, twine: TwineSpec | None) -> Ite
         allowed = f"less than the bar length of {bar * 1e3:g} mm"
         cure = "check the unit; neighbouring knots would overlap"
         yield (*path, "knot_diameter"), f"{netting.knot_diameter * 1e3:g} mm", allowed, cure
-
-
-def _panel_keys(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
-    if parts.is_static and keys.get("fixed") == "none":
-        allowed = '"edges", "top" or "corners" for a static case'
-        cure = 'nothing would hold it: write fixed = "edges", or solve with kind = "dynamic"'
-        yield (*path, "fixed"), '"none"', allowed, cure
-    asked = {"size", "hanging_ratio"} & keys.keys()
-    if len(asked) != 1:
-        found = "both size and hanging_ratio" if asked else "neither size nor hanging_ratio"
-        cure = (
-            "leave out one of the two" if asked else "add size = [width, height] in m, or hanging_ratio = 0.6"
-        )
-        yield (*path, "size"), found, "one of size and hanging_ratio", cure
-
-
-def _frame(path: Path, panel: PanelSpec, netting: NettingSpec | None) -> Iterator[Finding]:
-    if netting is None or (panel.given_size is None) == (panel.hanging_ratio is None):
-        return
-    if netting.mesh == "square" and isinstance(panel.hanging_ratio, float):
-        allowed = "[E1, E2] for square mesh, width and height over the stretched ones"
-        cure = f"write hanging_ratio = [{panel.hanging_ratio:g}, {panel.hanging_ratio:g}]"
-        yield (*path, "hanging_ratio"), f"{panel.hanging_ratio:g}", allowed, cure
-        return
-    size = panel.sized_for(netting)
-    strain = max(flat_strain(netting.mesh, panel.meshes, netting.bar_length, size))
-    if strain > LARGEST_STRAIN:
-        key = "size" if panel.given_size else "hanging_ratio"
-        spread = f"{size[0]:g} m x {size[1]:g} m"
-        found = f"{spread}, which strains the bars by {strain * 100:.3g} % before anything acts"
-        allowed = f"a frame that the net can span: at most {LARGEST_STRAIN * 100:g} % strain"
-        yield (*path, key), found, allowed, "check the units of size and bar_length and the number of meshes"
-
-
-def _panel_names(parts: Parts) -> Iterator[Finding]:
-    seen: dict[str, int] = {}
-    for index, keys in parts.panel_tables():
-        name = keys.get("name", str(index + 1))
-        if not isinstance(name, str):
-            continue
-        if name in seen:
-            found = f"{written(name)}, which is also the name of [[gear]] {seen[name] + 1}"
-            yield ("gear", index, "name"), found, "a name of its own for every gear", "choose another name"
-        seen.setdefault(name, index)
 
 
 def _outputs(parts: Parts) -> Iterator[Finding]:
@@ -341,13 +336,13 @@ def _solidities(parts: Parts) -> Iterator[Finding]:
     if drag is None or not drag.takes_solidity:
         return
     found = set()
-    for panel in parts.panels.values():
-        netting = parts.nettings.get(panel.netting)
+    for piece in parts.pieces.values():
+        netting = parts.nettings.get(piece.netting)
         twine = parts.twines.get(netting.twine) if netting else None
-        if netting and twine and (panel.given_size is None) != (panel.hanging_ratio is None):
-            found.add(f"{hung_solidity(panel, netting, twine.diameter):.3g}")
+        if netting and twine:
+            found |= {f"{hung_solidity(one, netting, twine.diameter):.3g}" for one in piece.sheets(netting)}
     if len(found) > 1:
-        told = f"none, and panels of solidity {' and '.join(sorted(found))}"
+        told = f"none, and netting of solidity {' and '.join(sorted(found))}"
         allowed = f'one solidity for the law "{drag.bars.law}" of all bars'
         cure = f'write bars = {{ law = "{drag.bars.law}", solidity = {min(found)} }} with the one that counts'
         yield ("drag", "bars"), told, allowed, cure

@@ -20,7 +20,7 @@ from .by_law import LawTable, by_law
 from .drag_table import BY_ANGLE, BY_SPEED, read_drag_table
 from .errors import CaseError, Problem
 from .fields import Coefficient, Factor, Share, Table
-from .gear import NettingSpec, PanelSpec
+from .gear import NettingSpec, Sheet
 
 # Laws that are nothing but the user's numbers, which are therefore asked for.
 _GIVEN = (ConstantBar, ConstantKnot)
@@ -170,7 +170,7 @@ def drag_file_problems(raw: dict[str, Any], folder: Path) -> Iterator[Problem]:
             yield from error.problems
 
 
-def hung_solidity(panel: PanelSpec, netting: NettingSpec, diameter: float) -> float:
-    """Return the solidity of a panel as it is hung on its frame; diameter: of its twine (m)."""
-    ratios = hanging_ratios(netting.mesh, panel.meshes, netting.bar_length, panel.sized_for(netting))
+def hung_solidity(sheet: Sheet, netting: NettingSpec, diameter: float) -> float:
+    """Return the solidity of a sheet of netting as it is hung; diameter: of its twine (m)."""
+    ratios = hanging_ratios(netting.mesh, sheet.meshes, netting.bar_length, sheet.size)
     return solidity(netting.mesh, netting.bar_length, ratios, diameter, netting.knot_diameter or 0.0)

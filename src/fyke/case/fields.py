@@ -8,15 +8,17 @@ from typing import Annotated, Any
 from pydantic import AfterValidator, BaseModel, ConfigDict, PlainValidator, WithJsonSchema
 
 from .quantity import Quantity, wrong
-from .units import ANGLE, DENSITY, FORCE, LENGTH, PRESSURE, RATIO, SPEED, TIME
+from .units import ANGLE, DENSITY, FORCE, LENGTH, MASS, PRESSURE, RATIO, SPEED, TIME
 
 # The ranges are wide: they catch a wrong unit or a slip of the pen, not an unusual net.
 Length = Annotated[float, Quantity(LENGTH, 0.0, 1e4, open_below=True)]
+Depth = Annotated[float, Quantity(LENGTH, 0.0, 1e4)]
 Place = Annotated[float, Quantity(LENGTH, -1e6, 1e6)]
 Speed = Annotated[float, Quantity(SPEED, -100.0, 100.0)]
 Density = Annotated[float, Quantity(DENSITY, 0.0, 1e5, open_below=True)]
 Modulus = Annotated[float, Quantity(PRESSURE, 0.0, 1e13, open_below=True)]
 Force = Annotated[float, Quantity(FORCE, 0.0, 1e9, open_below=True)]
+Mass = Annotated[float, Quantity(MASS, 0.0, 1e9, open_below=True)]
 Time = Annotated[float, Quantity(TIME, 0.0, 1e7, open_below=True)]
 # A bare number would be radians, and people mean degrees.
 Angle = Annotated[float, Quantity(ANGLE, -10.0, 10.0, unit_needed=True)]
@@ -79,10 +81,22 @@ def _read_normal(vector: tuple[float, float, float]) -> tuple[float, float, floa
     return vector
 
 
-def _refuse_hexagonal(value: Any) -> Any:
-    if value == "hexagonal":
-        raise wrong('"diamond" or "square"', "hexagonal mesh is not built yet; choose one of these two")
-    return value
+def whole(least: int, most: int) -> tuple[PlainValidator, WithJsonSchema]:
+    """Return the marks of a field that is a whole number in a range."""
+    allowed = f"a whole number from {least} to {most}"
+
+    def read(value: Any) -> int:
+        if isinstance(value, bool) or not isinstance(value, int):
+            as_whole = isinstance(value, float) and value.is_integer() and least <= value <= most
+            raise wrong(
+                allowed, f"write {value:.0f}, without the point" if as_whole else "give a whole number"
+            )
+        if not least <= value <= most:
+            raise wrong(allowed, f"give {least} or more" if value < least else f"give {most} or less")
+        return value
+
+    schema = {"type": "integer", "minimum": least, "maximum": most}
+    return PlainValidator(read), WithJsonSchema(schema)
 
 
 Name = Annotated[str, AfterValidator(_read_name)]

@@ -1,52 +1,184 @@
-"""Gear in the case file: netting and the panels made of it."""
+"""Gear in the case file: netting, what every part has, and the flat panel."""
 
 from __future__ import annotations
 
-from math import sqrt
-from typing import Annotated, Any, Literal
+from abc import abstractmethod
+from dataclasses import dataclass
+from math import pi, sin, sqrt
+from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, PrivateAttr
+import numpy as np
+from pydantic import Field, PrivateAttr
 
-from ..netting.lattice import Edge, MeshKind, hung_size
-from .fields import Density, Direction, HangingRatio, Length, MeshCount, Name, Point, Table
-from .quantity import wrong
+from ..netting.hexagon import Hexagon
+from ..netting.lattice import Edge, Mesh, flat_strain, hung_size, taut_ratios
+from ..netting.net import Net, Side
+from ..netting.panel import panel, panel_axes
+from ..netting.twine import Twine
+from .fields import Density, Direction, HangingRatio, Length, MeshCount, Name, Point, Table, whole
 
-
-def _refuse_hexagonal(value: Any) -> Any:
-    if value == "hexagonal":
-        raise wrong('"diamond" or "square"', "hexagonal mesh is not built yet; choose one of these two")
-    return value
+MOST_SEGMENTS = 50
+LARGEST_STRAIN = 0.2  # of unloaded bars in the net as built
 
 
 class NettingSpec(Table):
     """One kind of netting: a twine tied into meshes."""
 
     twine: Name = Field(description="name of a [twine.NAME]", examples=["main"])
-    mesh: Annotated[MeshKind, BeforeValidator(_refuse_hexagonal)] = Field(
-        description="shape of the meshes", examples=["diamond"]
+    mesh_name: Literal["diamond", "square", "hexagonal"] = Field(
+        alias="mesh", description="shape of the meshes", examples=["diamond"]
     )
-    bar_length: Length = Field(description="m, knot centre to knot centre, unloaded", examples=["30 mm"])
+    bar_length: Length = Field(
+        description="m, knot centre to knot centre, unloaded; of hexagons the slanted bars",
+        examples=["30 mm"],
+    )
+    long_bar: Length | None = Field(
+        default=None, description="m, of hexagons, knot centre to knot centre, unloaded", examples=["45 mm"]
+    )
+    orientation: Literal["T0", "T90"] = Field(
+        default="T0", description="long bars of hexagons along the height (T0) or the width (T90)"
+    )
     knot_diameter: Length | None = Field(
         default=None, description="m; leave out for knotless netting", examples=["3.5 mm"]
     )
     knot_density: Density | None = Field(
         default=None, description="kg/m3, the twine's by default", examples=[1140.0]
     )
+    segments: Annotated[int, *whole(1, MOST_SEGMENTS)] = Field(
+        default=1, description="straight pieces that a bar is cut into, so that it can bow", examples=[2]
+    )
+
+    @property
+    def mesh(self) -> Mesh:
+        """The kind of mesh, as functions of netting.lattice take it; long bars that are not given as the others."""
+        if self.mesh_name == "hexagonal":
+            return Hexagon((self.long_bar or self.bar_length) / self.bar_length, self.orientation == "T90")
+        return self.mesh_name
 
 
-class PanelSpec(Table):
-    """A rectangular panel of netting on a frame."""
+@dataclass(frozen=True)
+class Sheet:
+    """One sheet of netting of a piece of gear, as it is built.
 
-    kind: Literal["panel"] = Field(description="kind of gear", examples=["panel"])
+    name: of the panel in the net; meshes: along width and height; size: m, width and height laid flat, the mean ones;
+    rims: diameters (m) of the lower and the upper rim of one that closes round, None for a flat one; sewn: its upper
+    rim has the knots of another sheet.
+    """
+
+    name: str
+    meshes: tuple[int, int]
+    size: tuple[float, float]
+    rims: tuple[float, float] | None = None
+    sewn: bool = False
+
+    @property
+    def edges(self) -> tuple[Side, ...]:
+        """Its edges; netting that closes round has no left and right."""
+        return ("top", "bottom") if self.rims else ("top", "bottom", "left", "right")
+
+    @property
+    def tip(self) -> bool:
+        """Whether its lowest row is one knot."""
+        return self.rims is not None and self.rims[0] == 0.0
+
+    def strain(self, netting: NettingSpec) -> float:
+        """Strain of the longest bars as built, negative where all are slack; where it is widest."""
+        width = self.size[0] if self.rims is None else pi * max(self.rims)
+        return max(flat_strain(netting.mesh, self.meshes, netting.bar_length, (width, self.size[1])))
+
+    def edge(self, side: Side, mesh: Mesh) -> tuple[int, float]:
+        """Return how many knots an edge has, and how long (m) it is from knot to knot; of hexagons at most."""
+        if self.rims is None:
+            along = 0 if side in ("top", "bottom") else 1
+            if isinstance(mesh, Hexagon):
+                return mesh.knots_along(self.meshes, along, last=side in ("top", "right")), self.size[along]
+            return self.meshes[along] + 1, self.size[along]
+        diameter, around = self.rims[1 if side == "top" else 0], self.meshes[0]
+        return (around, around * diameter * sin(pi / around)) if diameter else (1, 0.0)
+
+    def last(self, mesh: Mesh) -> tuple[int, int]:
+        """Return the largest column and row of its own knots."""
+        steps = 2 if mesh == "diamond" else 1
+        i, j = (
+            mesh.last(self.meshes)
+            if isinstance(mesh, Hexagon)
+            else (steps * self.meshes[0], steps * self.meshes[1])
+        )
+        return i - (self.rims is not None), j - self.sewn
+
+    def has(self, i: int, j: int, mesh: Mesh) -> bool:
+        """Whether it has a knot i-j of its own."""
+        last = self.last(mesh)
+        knot = mesh.has(i, j) if isinstance(mesh, Hexagon) else mesh == "square" or (i + j) % 2 == 0
+        return i <= last[0] and j <= last[1] and knot and not (self.tip and j == 0 and i > 0)
+
+
+def ratios(hanging: float | tuple[float, float], mesh: Mesh) -> tuple[float, float]:
+    """Return E1 and E2; one number is E1 of netting whose bars are just taut, of diamonds where none can be."""
+    if isinstance(hanging, tuple):
+        return hanging
+    return taut_ratios(mesh, hanging) or (hanging, sqrt(1.0 - hanging**2))
+
+
+class Part(Table):
+    """What every [[gear]] has."""
+
+    kind: str
     given_name: Name | None = Field(
         default=None,
         alias="name",
         description='name in labels; "1", "2" ... by default when there are several',
     )
+    _name: str = PrivateAttr(default="")
+
+    @property
+    def name(self) -> str:
+        """Name as given; by default "" for the only gear and "1", "2" ... among several."""
+        return self._name
+
+    @property
+    def called(self) -> str:
+        """Kind and name, for messages."""
+        return f"{self.kind} '{self.name}'" if self.name else f"the {self.kind}"
+
+    def call(self, default_name: str) -> None:
+        """Fill in the name, once, when the whole case is known."""
+        self._name = default_name if self.given_name is None else self.given_name
+
+
+class Piece(Part):
+    """Gear that is netting."""
+
     netting: Name = Field(description="name of a [netting.NAME]", examples=["main"])
     meshes: tuple[MeshCount, MeshCount] = Field(
         description="meshes along the width and along the height", examples=[[8, 8]]
     )
+
+    def settle(self, netting: NettingSpec) -> None:
+        """Fill in what follows from the netting, once, when the whole case is known."""
+
+    @property
+    @abstractmethod
+    def sized(self) -> bool:
+        """Whether its keys say its size once."""
+
+    @abstractmethod
+    def sheets(self, netting: NettingSpec) -> tuple[Sheet, ...]:
+        """Return its sheets, none when its size is not known."""
+
+    @abstractmethod
+    def heights(self, netting: NettingSpec) -> tuple[float, float] | None:
+        """Return z (m) of its lowest and its highest place as built, None when its size is not known."""
+
+    @abstractmethod
+    def lay(self, netting: NettingSpec, twine: Twine) -> Net:
+        """Build it of this netting, whose twine this is."""
+
+
+class PanelSpec(Piece):
+    """A rectangular panel of netting on a frame."""
+
+    kind: Literal["panel"] = Field(description="kind of gear", examples=["panel"])
     given_size: tuple[Length, Length] | None = Field(
         default=None,
         alias="size",
@@ -55,7 +187,7 @@ class PanelSpec(Table):
     )
     hanging_ratio: HangingRatio | None = Field(
         default=None,
-        description="instead of size: E1 (diamond mesh, E2 = sqrt(1 - E1^2)) or [E1, E2], width and height "
+        description="instead of size: E1 (bars just taut; diamonds E2 = sqrt(1 - E1^2)) or [E1, E2], width and height "
         "over the fully stretched ones",
         examples=[0.6],
     )
@@ -67,27 +199,54 @@ class PanelSpec(Table):
     )
     fixed: Edge = Field(default="edges", description="knots that are held")
     _size: tuple[float, float] = PrivateAttr(default=(0.0, 0.0))
-    _name: str = PrivateAttr(default="")
 
     @property
     def size(self) -> tuple[float, float]:
         """Width and height of the frame (m), as given or from the hanging ratio."""
         return self._size
 
-    @property
-    def name(self) -> str:
-        """Name as given; by default "" for the only gear and "1", "2" ... among several."""
-        return self._name
-
-    def settle(self, default_name: str, netting: NettingSpec) -> None:
-        """Fill in name and size, once, when the whole case is known."""
-        self._name = default_name if self.given_name is None else self.given_name
+    def settle(self, netting: NettingSpec) -> None:
+        """Fill in the size."""
         self._size = self.sized_for(netting)
+
+    @property
+    def sized(self) -> bool:
+        """Whether it has either a size or a hanging ratio."""
+        return (self.given_size is None) != (self.hanging_ratio is None)
+
+    def sheets(self, netting: NettingSpec) -> tuple[Sheet, ...]:
+        """Return the one sheet."""
+        return (Sheet(self.name, self.meshes, self.sized_for(netting)),) if self.sized else ()
+
+    def heights(self, netting: NettingSpec) -> tuple[float, float] | None:
+        """Return z (m) of its lowest and its highest corner."""
+        if not self.sized:
+            return None
+        axes = panel_axes(np.array(self.normal))
+        half = float(0.5 * np.abs(axes[:, 2]) @ np.array(self.sized_for(netting)))
+        return self.centre[2] - half, self.centre[2] + half
+
+    def lay(self, netting: NettingSpec, twine: Twine) -> Net:
+        """Build it."""
+        return panel(
+            twine,
+            mesh=netting.mesh,
+            meshes=self.meshes,
+            bar_length=netting.bar_length,
+            size=self.size,
+            knot_diameter=netting.knot_diameter or 0.0,
+            knot_density=netting.knot_density,
+            segments=netting.segments,
+            centre=self.centre,
+            normal=self.normal,
+            fixed=self.fixed,
+            name=self.name,
+        )
 
     def sized_for(self, netting: NettingSpec) -> tuple[float, float]:
         """Return width and height (m) of the frame when hung with this netting."""
         if self.given_size is not None:
             return self.given_size
-        ratio = self.hanging_ratio or 0.0
-        pair = ratio if isinstance(ratio, tuple) else (ratio, sqrt(1.0 - ratio**2))
-        return hung_size(netting.mesh, self.meshes, netting.bar_length, pair)
+        return hung_size(
+            netting.mesh, self.meshes, netting.bar_length, ratios(self.hanging_ratio or 0.0, netting.mesh)
+        )

@@ -42,7 +42,7 @@ class Spot:
         """The allowed words of a field that is a choice, or of the key that tells several tables apart."""
         if self.field is None:
             return []
-        models = _models(self.field.annotation)
+        models = _models(_item(self.field.annotation))
         return _literals(self.field.annotation) or [w for model in models for w in _words(model, models)]
 
 
@@ -83,7 +83,7 @@ def nearest(word: str, known: Iterable[str], cutoff: float = _NEAR) -> str:
 def cure_for_unknown(key: str, table: type[Table]) -> str:
     """Say which key was meant, or where this one belongs."""
     close = nearest(key, fields_of(table), cutoff=0.8)
-    homes = [name for name, model in _tables().items() if key in fields_of(model)]
+    homes = list(dict.fromkeys(name for name, model in _tables(table) if key in fields_of(model)))
     if homes and not close and not issubclass(table, LawTable):
         return f"'{key}' belongs in {' or '.join(homes)}"
     near = close or nearest(key, fields_of(table))
@@ -103,7 +103,7 @@ def cure_for_missing(key: str, field: FieldInfo) -> str:
     if models:
         return f"add the table [{key}] with {example(models[0])}"
     if key == "gear":
-        return f"add a table [[gear]] with {example(_models(get_args(field.annotation)[0])[0])}"
+        return f"add a table [[gear]] with {example(_models(_item(field.annotation))[0])}"
     if get_origin(field.annotation) is dict:
         return f"add a table [{key}.main] with {example(_models(get_args(field.annotation)[1])[0])}"
     return f"add {assignment(key, (field.examples or ['...'])[0])}"
@@ -142,19 +142,23 @@ def _words(model: type[Table], models: list[type[Table]]) -> list[str]:
     return _literals(fields_of(model)[_tag(models)].annotation)
 
 
-def _tables() -> dict[str, type[Table]]:
-    """Every table of the file under the name that a reader would look for."""
-    tables: dict[str, type[Table]] = {}
+def _item(annotation: Any) -> Any:
+    """Return what a list holds, or the value itself where it is no list."""
+    return get_args(annotation)[0] if get_origin(annotation) is tuple else annotation
+
+
+def _tables(asked: type[Table]) -> list[tuple[str, type[Table]]]:
+    """Every table of the file under the name that a reader would look for, one of whom stands in `asked`."""
+    tables: list[tuple[str, type[Table]]] = []
     for key, field in fields_of(Case).items():
         inner = get_args(field.annotation)
         if get_origin(field.annotation) is dict:
-            tables[f"[{key}.NAME]"] = inner[1]
-        elif get_origin(field.annotation) is tuple:
-            tables[f"[[{key}]]"] = inner[0]
-        else:
-            models = _models(field.annotation)
-            for model in models:
-                words = _words(model, models) if len(models) > 1 else []
-                also = f' with {_tag(models)} = "{words[0]}"' if words else ""
-                tables[f"[{key}]{also}"] = model
+            tables.append((f"[{key}.NAME]", inner[1]))
+            continue
+        listed = get_origin(field.annotation) is tuple
+        models = _models(_item(field.annotation))
+        name = f"[[{key}]]" if listed else f"[{key}]"
+        for model in models:
+            words = _words(model, models) if len(models) > 1 and (asked in models or not listed) else []
+            tables.append((name + (f' with {_tag(models)} = "{words[0]}"' if words else ""), model))
     return tables

@@ -6,11 +6,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ..netting.lattice import flat_strain, hanging_ratios, lattice
-from ..netting.panel import panel_axes
-from .check import LARGEST_STRAIN
+from ..netting.lattice import hanging_ratios
+from .gear import LARGEST_STRAIN
 from .schema import Case
-from .water_check import current_oddities, highest_of
+from .water_check import current_oddities
 from .waves import wave_oddities
 
 LEAST_HANGING = 0.05
@@ -57,18 +56,21 @@ def _thin_knots(case: Case) -> Iterator[str]:
 
 
 def _frames(case: Case) -> Iterator[str]:
-    for panel in case.gear:
-        netting = case.netting[panel.netting]
-        bars = (netting.mesh, panel.meshes, netting.bar_length, panel.size)
-        what = f"panel '{panel.name}'" if panel.name else "the panel"
-        strain = max(flat_strain(*bars))
+    for netting, sheet in case.sheets:
+        shape = "netting" if sheet.rims else "panel"
+        what = f"{shape} '{sheet.name}'" if sheet.name else f"the {shape}"
+        on, sides = ("its frame", ("width", "height"))
+        if sheet.rims:
+            on, sides = ("its rims", ("mean way round", "height along the netting"))
+        strain = sheet.strain(netting)
         # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
         if strain > 1e-9:
             yield (
-                f"The bars of {what} are stretched on its frame: their strain is {strain * 100:.2g} % "
+                f"The bars of {what} are stretched on {on}: their strain is {strain * 100:.2g} % "
                 f"(refused above {LARGEST_STRAIN * 100:g} %)."
             )
-        for side, ratio in zip(("width", "height"), hanging_ratios(*bars), strict=True):
+        hung = hanging_ratios(netting.mesh, sheet.meshes, netting.bar_length, sheet.size)
+        for side, ratio in zip(sides, hung, strict=True):
             if ratio < LEAST_HANGING:
                 yield (
                     f"The {side} of {what} is {ratio * 100:.2g} % of the stretched netting "
@@ -77,11 +79,12 @@ def _frames(case: Case) -> Iterator[str]:
 
 
 def _unused(case: Case) -> Iterator[str]:
-    worn = {panel.netting for panel in case.gear}
+    worn = {piece.netting for piece in case.pieces}
     for name in sorted(case.netting.keys() - worn):
         yield f"Netting '{name}' is not used by any gear."
-    for name in sorted(case.twine.keys() - {netting.twine for netting in case.netting.values()}):
-        yield f"Twine '{name}' is not used by any netting."
+    spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
+    for name in sorted(case.twine.keys() - spun):
+        yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
     for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
         yield f"Material '{name}' is not used by any twine."
 
@@ -104,23 +107,20 @@ def _sheltered_twice(case: Case) -> Iterator[str]:
 
 
 def _above_water(case: Case) -> Iterator[str]:
-    for panel in case.gear:
-        netting = case.netting[panel.netting]
-        highest = highest_of(panel, netting)
-        if highest is None or highest <= AT_SURFACE:
+    for piece in case.pieces:
+        netting = case.netting[piece.netting]
+        known = piece.heights(netting)
+        if known is None or known[1] <= AT_SURFACE:
             continue
-        grid = lattice(netting.mesh, panel.meshes)
-        steps = (grid.knots / np.array(grid.intervals) - 0.5) * np.array(panel.size)
-        heights = panel.centre[2] + steps @ panel_axes(np.array(panel.normal))[:, 2]
-        what = f"panel '{panel.name}'" if panel.name else "the panel"
+        heights = piece.lay(netting, case.twines[netting.twine]).positions[:, 2]
         air = (
             "though screens feel the current there, too"
             if case.drag.kind == "screens"
             else "and without drag"
         )
         yield (
-            f"{np.count_nonzero(heights > AT_SURFACE)} of {len(heights)} knots of {what} begin above the surface, up "
-            f"to z = {highest:.4g} m, with their weight in air {air}; below still water z is negative."
+            f"{np.count_nonzero(heights > AT_SURFACE)} of {len(heights)} knots of {piece.called} begin above the "
+            f"surface, up to z = {known[1]:.4g} m, with their weight in air {air}; below still water z is negative."
         )
 
 

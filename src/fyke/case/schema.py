@@ -14,8 +14,10 @@ from .added_mass import AddedMass
 from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
-from .gear import NettingSpec, PanelSpec
+from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .quantity import Quantity, wrong
+from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
@@ -85,6 +87,11 @@ class DynamicSolve(Table):
     )
 
 
+Gear = Annotated[
+    PanelSpec | CylinderSpec | ConeSpec | FrustumSpec | RopeSpec | SinkersSpec | FloatsSpec,
+    Field(discriminator="kind"),
+]
+
 SolveSpec = Annotated[
     Annotated[StaticSolve | DynamicSolve, Field(discriminator="kind")], BeforeValidator(_static_by_default)
 ]
@@ -117,7 +124,7 @@ class Case(Table):
     """A whole case file in SI units.
 
     Made by load_case and parse_case, which also check what holds between tables and fill in text, path,
-    warnings and the names and sizes of the panels.
+    warnings and the names and sizes of the gear.
     """
 
     schema_version: Literal[1] = Field(alias="schema", description="version of this format", examples=[1])
@@ -134,8 +141,8 @@ class Case(Table):
     netting: Annotated[
         dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
     ] = Field(description="nettings by name")
-    gear: Annotated[tuple[PanelSpec, ...], Field(min_length=1)] = Field(
-        description="panels, one [[gear]] each"
+    gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
+        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
     )
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
@@ -155,9 +162,10 @@ class Case(Table):
         self._warnings = known.get("warnings", ())
         for twine in self.twine.values():
             twine.settle(self.materials)
-        for number, panel in enumerate(self.gear, 1):
-            if panel.netting in self.netting:
-                panel.settle(str(number) if len(self.gear) > 1 else "", self.netting[panel.netting])
+        for number, part in enumerate(self.gear, 1):
+            part.call(str(number) if len(self.gear) > 1 else "")
+            if isinstance(part, Piece) and part.netting in self.netting:
+                part.settle(self.netting[part.netting])
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
@@ -196,13 +204,33 @@ class Case(Table):
         return self._path.parent if self._path else Path()
 
     @property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The gear that is netting."""
+        return tuple(part for part in self.gear if isinstance(part, Piece))
+
+    @property
+    def ropes(self) -> tuple[RopeSpec, ...]:
+        """The gear that is ropes."""
+        return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def bodies(self) -> tuple[BodiesSpec, ...]:
+        """The gear that is floats and sinkers."""
+        return tuple(part for part in self.gear if isinstance(part, BodiesSpec))
+
+    @property
+    def sheets(self) -> tuple[tuple[NettingSpec, Sheet], ...]:
+        """Every sheet of netting of the gear, with what it is made of."""
+        made = [(piece, self.netting[piece.netting]) for piece in self.pieces]
+        return tuple((netting, sheet) for piece, netting in made for sheet in piece.sheets(netting))
+
+    @property
     def solidity(self) -> float:
-        """Solidity of the panels as hung on their frames, the mean by their areas."""
+        """Solidity of the netting as it is hung, the mean by its areas."""
         solid, area = 0.0, 0.0
-        for panel in self.gear:
-            netting = self.netting[panel.netting]
-            outline = panel.size[0] * panel.size[1]
-            solid += outline * hung_solidity(panel, netting, self.twine[netting.twine].diameter)
+        for netting, sheet in self.sheets:
+            outline = sheet.size[0] * sheet.size[1]
+            solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
         return solid / area
 

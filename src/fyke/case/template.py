@@ -6,7 +6,7 @@ _TEMPLATE = """\
 # A case file of fyke. A number is in SI units; a text in quotes may carry a unit:
 #   length m mm cm km um in ft fathom    speed m/s cm/s mm/s kn km/h ft/s    time s ms us min h
 #   pressure Pa kPa MPa GPa N/mm2        density kg/m3 g/cm3 g/l            force N kN mN kgf
-#   angle deg rad, always with its unit
+#   angle deg rad, always with its unit  mass kg g t
 # The axes: z up with still water at z = 0, x downstream. Lines that start with "# " show what may be added.
 schema = 1
 title = "Knotted nylon panel, 8 x 8 diamond meshes, on a square frame"
@@ -58,6 +58,7 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "quadratic", c1 = "1160 N", c2 = "37.3 kN" }
 # law = { kind = "table", strain = [0.0, 0.05, 0.1], tension = [0.0, 20.0, 60.0] }   # N
 # damping_time = "20 us"             # Kelvin-Voigt retardation time; by default from the loss factor of the material
+# breaking_strength = "250 N"          # of one twine, wet and knotted; the largest tension is compared with it
 
 # [material.own]                     # a material of your own, material = "own" in a twine
 # density = 1140.0                   # kg/m3
@@ -67,12 +68,15 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 
 [netting.main]                       # any number of nettings, each with a name
 twine = "main"
-mesh = "diamond"                     # diamond | square
+mesh = "diamond"                     # diamond | square | hexagonal
 bar_length = "30 mm"                 # knot centre to knot centre, unloaded
 knot_diameter = "3.5 mm"             # leave out for knotless netting
+# long_bar = "45 mm"                 # of hexagons, whose bar_length is that of the slanted bars
+# orientation = "T0"                 # of hexagons: long bars along the height (T0) or the width (T90)
 # knot_density = 1140.0              # kg/m3, the twine's by default
+# segments = 2                       # straight pieces of every bar, so that it can bow; 1 by default
 
-[[gear]]                             # one for every panel
+[[gear]]                             # one for every part
 kind = "panel"
 # name = "left"                      # shown before the knot's row and column
 netting = "main"
@@ -83,6 +87,39 @@ size = [0.3055, 0.3055]              # m, width and height of the frame; or, ins
 centre = [0.0, 0.0, -0.5]            # m
 normal = [1.0, 0.0, 0.0]             # the panel's width axis is horizontal
 fixed = "edges"                      # edges | top | corners | none (dynamic only)
+
+# Netting round an axis, and what hangs on netting; every part has a name of its own:
+# [[gear]]
+# kind = "cylinder"                  # cylinder | cone (its tip below) | frustum
+# name = "cage"
+# netting = "main"
+# meshes = [64, 18]                  # around, along the height
+# diameter = "0.8 m"                 # through the knots of the rim; of a frustum: [lower, upper]
+# height = "0.8 m"
+# hanging_ratio = [0.6, 0.8]         # instead of diameter and height, of a cylinder or a cone
+# top = [0.0, 0.0, 0.0]              # m, centre of the upper rim
+# fixed = "top"                      # top | edges | none (dynamic only)
+# bottom = { meshes = 10, depth = "0.1 m" }   # of a cylinder or a frustum; flat without depth
+# [[gear]]
+# kind = "rope"
+# name = "footrope"
+# twine = "main"
+# along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
+# length = "2.5 m"                   # unloaded, that of the edge by default
+# [[gear]]
+# kind = "sinkers"
+# name = "weights"
+# along = "cage.bottom"
+# count = 16                         # evenly along it, one at every knot by default
+# weight = "5 N"                     # of each one in water, with its density; or, instead, mass and diameter
+# density = 7850.0
+# drag = 0.47                        # C_D of each one
+# [[gear]]
+# kind = "floats"
+# name = "corks"
+# at = ["cage:0-0", "cage:8-0"]      # labels of knots; or along, as for sinkers
+# buoyancy = "5 N"                   # lift of each one under water, with its density
+# density = 200.0
 
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length

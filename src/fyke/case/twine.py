@@ -137,6 +137,9 @@ class TwineSpec(Table):
         "from the material's loss factor by default",
         examples=["20 us"],
     )
+    breaking_strength: Force | None = Field(
+        default=None, description="N, of one twine or rope, wet and knotted as it is used", examples=["250 N"]
+    )
     _material: Material | None = PrivateAttr(default=None)
 
     def settle(self, materials: dict[str, Material]) -> None:
@@ -215,5 +218,6 @@ class TwineSpec(Table):
             damping_time=self.damping_time or 0.0,
             material=self.material or "",
             loss_factor=self.resolved_loss_factor,
+            breaking_strength=self.breaking_strength,
             linear_density=self.rtex,
         )

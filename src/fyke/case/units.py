@@ -91,6 +91,7 @@ FORCE = Kind(
     {"N": Fraction(1), "kN": Fraction(1000), "mN": Fraction("1e-3"), "kgf": Fraction("9.80665")},
     "2 kN",
 )
+MASS = Kind("mass", "kg", {"kg": Fraction(1), "g": Fraction("1e-3"), "t": Fraction(1000)}, "250 g")
 LINEAR_DENSITY = Kind(
     "mass per length",
     "kg/m",
@@ -123,6 +124,7 @@ KINDS = (
     DENSITY,
     LINEAR_DENSITY,
     FORCE,
+    MASS,
     VISCOSITY,
     ENERGY,
     ANGLE,

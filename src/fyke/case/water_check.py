@@ -5,16 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from pydantic import TypeAdapter, ValidationError
 
-from ..netting.panel import panel_axes
 from ..water import SeriesCurrent
 from .current import Current, DepthTable, Moment, Profile
 from .current_file import read_current
 from .errors import CaseError, Problem
 from .fields import Length, Time
-from .gear import NettingSpec, PanelSpec
 from .places import Path
 from .written import written
 
@@ -52,13 +49,14 @@ def current_file_problems(parts: Parts) -> Iterator[Problem]:
 def sea_bed_findings(parts: Parts) -> Iterator[Finding]:
     """Gear that reaches below the sea bed."""
     bed = _depth(parts)
-    for index, panel in parts.panels.items():
-        netting = parts.nettings.get(panel.netting)
-        lowest = lowest_of(panel, netting) if netting else None
-        if bed is not None and lowest is not None and lowest < -bed:
-            found = f"its lowest knots are at z = {lowest:.6g} m"
-            cure = "raise its centre, or check [water] depth"
-            yield ("gear", index, "centre"), found, f"gear above the sea bed at z = {-bed:g} m", cure
+    for index, piece in parts.pieces.items():
+        netting = parts.nettings.get(piece.netting)
+        heights = piece.heights(netting) if netting else None
+        if bed is not None and heights is not None and heights[0] < -bed:
+            found = f"its lowest knots are at z = {heights[0]:.6g} m"
+            key = "centre" if "centre" in type(piece).model_fields else "top"
+            cure = f"raise its {key}, or check [water] depth"
+            yield ("gear", index, key), found, f"gear above the sea bed at z = {-bed:g} m", cure
 
 
 def current_oddities(case: Case) -> Iterator[str]:
@@ -72,33 +70,13 @@ def current_oddities(case: Case) -> Iterator[str]:
             f"{case.solve.duration:g} s."
         )
     last = current.lowest
-    heights = [lowest_of(panel, case.netting[panel.netting]) for panel in case.gear]
-    deepest = -min(height for height in heights if height is not None)
+    heights = [piece.heights(case.netting[piece.netting]) for piece in case.pieces]
+    deepest = -min(height[0] for height in heights if height is not None)
     if last is not None and deepest > last:
         yield (
             f"The current is given down to {last:g} m and the gear reaches {deepest:.4g} m; below its last depth "
             "it is held."
         )
-
-
-def lowest_of(panel: PanelSpec, netting: NettingSpec) -> float | None:
-    """Height z (m) of the lowest corner of a panel as it is hung, None where its size is not known."""
-    half = _half_height(panel, netting)
-    return None if half is None else panel.centre[2] - half
-
-
-def highest_of(panel: PanelSpec, netting: NettingSpec) -> float | None:
-    """Height z (m) of the highest corner of a panel as it is hung, None where its size is not known."""
-    half = _half_height(panel, netting)
-    return None if half is None else panel.centre[2] + half
-
-
-def _half_height(panel: PanelSpec, netting: NettingSpec) -> float | None:
-    """Half of the height (m) that a panel takes up along z, None where its size is not known."""
-    if (panel.given_size is None) == (panel.hanging_ratio is None):
-        return None
-    axes = panel_axes(np.array(panel.normal))
-    return float(0.5 * np.abs(axes[:, 2]) @ np.array(panel.sized_for(netting)))
 
 
 def _table(parts: Parts, name: str) -> dict[str, Any]:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import Field, PlainValidator, TypeAdapter, ValidationError, WithJsonSchema
+from pydantic import Field, TypeAdapter, ValidationError
 
 from ..water.waves import Spreading, Waves, airy, breaking_height, default_gamma, irregular, stokes2
 from ..water.waves.limits import MICHE, wave_length
-from .fields import Angle, Table
+from .fields import Angle, Table, whole
 from .places import Path
-from .quantity import Quantity, wrong
+from .quantity import Quantity
 from .units import LENGTH, TIME
 
 MOST_COMPONENTS, MOST_DIRECTIONS = 10_000, 360
@@ -27,28 +27,13 @@ Period = Annotated[float, Quantity(TIME, 0.01, 1000.0)]
 RampTime = Annotated[float, Quantity(TIME, 0.0, 1e6)]
 
 
-def _whole(least: int, most: int) -> tuple[PlainValidator, WithJsonSchema]:
-    allowed = f"a whole number from {least} to {most}"
-
-    def read(value: Any) -> int:
-        if isinstance(value, bool) or not isinstance(value, int):
-            whole = isinstance(value, float) and value.is_integer() and least <= value <= most
-            raise wrong(allowed, f"write {value:.0f}, without the point" if whole else "give a whole number")
-        if not least <= value <= most:
-            raise wrong(allowed, f"give {least} or more" if value < least else f"give {most} or less")
-        return value
-
-    schema = {"type": "integer", "minimum": least, "maximum": most}
-    return PlainValidator(read), WithJsonSchema(schema)
-
-
 class SpreadingSpec(Table):
     """Directions of an irregular sea, by the energy cos^2s of half the angle off the mean direction."""
 
     exponent: Annotated[float, Quantity(None, 0.5, 1000.0)] = Field(
         description="s: some 5 to 30 for wind seas, 75 for swell", examples=[10]
     )
-    directions: Annotated[int, *_whole(2, MOST_DIRECTIONS)] = Field(
+    directions: Annotated[int, *whole(2, MOST_DIRECTIONS)] = Field(
         default=15, description="how many; each component has one of them", examples=[15]
     )
 
@@ -149,10 +134,10 @@ class _Irregular(_Sea):
 
     significant_height: Height = Field(description="m, Hs = 4 sqrt(m0)", examples=[2.0])
     peak_period: Period = Field(description="s, Tp", examples=["8 s"])
-    components: Annotated[int, *_whole(1, MOST_COMPONENTS)] = Field(
+    components: Annotated[int, *whole(1, MOST_COMPONENTS)] = Field(
         default=200, description="waves that the sea is made of", examples=[200]
     )
-    seed: Annotated[int, *_whole(0, _LARGEST_SEED)] = Field(
+    seed: Annotated[int, *whole(0, _LARGEST_SEED)] = Field(
         default=1, description="of the phases; the same seed gives the same sea", examples=[1]
     )
     spreading: SpreadingSpec | None = Field(

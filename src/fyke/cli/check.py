@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..case import Case, CaseError, load_case
-from ..netting.lattice import flat_strain
+from ..case.gear import NettingSpec, Sheet
 from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Panel
 from ..results.ranges import bar_values, knot_values, out_of_range
@@ -20,6 +20,7 @@ from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from ..water.wakes import GivenWake
+from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -56,11 +57,14 @@ def check_case(file: Path, *, json: bool) -> int:
 def judge(case: Case) -> dict[str, Any]:
     """Return what the case would build, ready for JSON.
 
-    mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each, lengths in m, areas in m2,
-    mass_per_area in kg/m2, rtex in tex; strain: largest of the flat panel, negative where all bars are slack;
+    mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each sheet of netting, lengths in m, areas
+    in m2, mass_per_area in kg/m2, rtex in tex; strain: largest as built, negative where all bars are slack; rims:
+    diameters (m) of the lower and the upper rim of netting that closes round, None of a flat panel;
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
+    ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats and sinkers, one table each kind, mass (kg),
+    diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one, total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -89,7 +93,12 @@ def judge(case: Case) -> dict[str, Any]:
         "waves": case.waves.described if case.waves else None,
         "drag": _drag(system),
         "shelter": _shelter(system),
-        "panels": [_panel(case, system, panel, *numbers) for panel in net.panels],
+        "panels": [
+            _panel(case, system, panel, made, *numbers)
+            for panel, made in zip(net.panels, case.sheets, strict=True)
+        ],
+        "ropes": ropes_of(case, system),
+        "bodies": bodies_of(case, system),
         "warnings": [*case.warnings, *outside.warnings],
         "out_of_range": outside.counts,
         "case_sha256": case.sha256,
@@ -117,20 +126,29 @@ def _span(values: Array) -> list[float]:
     return [float(there.min()), float(there.max())] if there.size else [0.0, 0.0]
 
 
-def _panel(case: Case, system: System, panel: Panel, across: Array, at_knots: Array) -> dict[str, Any]:
+def _panel(
+    case: Case,
+    system: System,
+    panel: Panel,
+    made: tuple[NettingSpec, Sheet],
+    across: Array,
+    at_knots: Array,
+) -> dict[str, Any]:
     net, twine = system.net, case.twine[panel.twine]
-    spec = next(one for one in case.gear if one.name == panel.name)
-    mesh = case.netting[spec.netting].mesh
+    netting, sheet = made
     speed = float(np.linalg.norm(case.current.at_surface))
     return {
         "name": panel.name,
-        "netting": spec.netting,
-        "mesh": mesh,
+        "shape": panel.shape,
+        "netting": next(name for name, spec in case.netting.items() if spec is netting),
+        "mesh": netting.mesh_name,
         "meshes": list(panel.meshes),
+        "segments": netting.segments,
         "size": list(panel.size),
+        "rims": list(sheet.rims) if sheet.rims else None,
         **asdict(measure_panel(net, panel)),
         "fixed": int(np.count_nonzero(net.fixed[np.unique(panel.knots)])),
-        "strain": max(flat_strain(mesh, panel.meshes, panel.bar_length, panel.size)),
+        "strain": sheet.strain(netting),
         "reynolds": speed * twine.diameter / case.water.kinematic_viscosity,
         "reynolds_across": _span(across[panel.bars]),
         "reynolds_knots": _span(at_knots[panel.knots])[1],
@@ -155,8 +173,12 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     ]
     print_rows(console, findings["title"] or file.stem, rows)
     for panel in findings["panels"]:
-        name = f"panel {panel['name']}".rstrip()
+        name = f"{panel['shape']} {panel['name']}".rstrip()
         print_rows(console, f"{name}: {panel['mesh']} netting '{panel['netting']}'", _panel_rows(panel))
+    for rope in findings["ropes"]:
+        print_rows(console, f"rope {rope['name']}: twine '{rope['twine']}'", rope_rows(rope))
+    for bodies in findings["bodies"]:
+        print_rows(console, f"{bodies['kind']} {bodies['name']}", body_rows(bodies))
     print_warnings(console, findings["warnings"])
     if not findings["warnings"]:
         console.print("Nothing looks odd.")
@@ -173,16 +195,32 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
     state = "taut" if panel["strain"] > 0.0 else "slack"
     return [
         ("meshes", f"{across} x {down} = {across * down}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
-        ("frame", f"{width:.4g} m x {height:.4g} m, {quantity(panel['outline_area'], 'm2')}"),
+        *([("bars", f"in {panel['segments']} segments each")] if panel["segments"] > 1 else []),
+        *_outline(panel, width, height),
         ("hanging ratios", f"E1 = {e1:.4f}, E2 = {e2:.4f}"),
         ("solidity", f"{panel['solidity']:.4f}"),
         ("twine area", quantity(panel["twine_area"], "m2")),
         ("mass per area", quantity(panel["mass_per_area"], "kg/m2")),
         ("twine", quantity(panel["rtex"], "tex")),
         ("fixed knots", f"{panel['fixed']}"),
-        ("bar strain when flat", f"{panel['strain'] * 100:.2f} % ({state})"),
+        (
+            "bar strain as built" if panel["rims"] else "bar strain when flat",
+            f"{panel['strain'] * 100:.2f} % ({state})",
+        ),
         ("Reynolds number", _reynolds(panel)),
         ("twine damping", f"{quantity(panel['damping_time'] * 1e6, 'us', 3)}, {panel['damping_source']}"),
+    ]
+
+
+def _outline(panel: dict[str, Any], width: float, height: float) -> list[tuple[str, str]]:
+    area = quantity(panel["outline_area"], "m2")
+    if panel["rims"] is None:
+        return [("frame", f"{width:.4g} m x {height:.4g} m, {area}")]
+    low, high = panel["rims"]
+    rims = f"{high:.4g} m" if low == high else f"{low:.4g} m below, {high:.4g} m above"
+    return [
+        ("diameter", "tip below, rim " + f"{high:.4g} m" if low == 0.0 else rims),
+        ("netting", f"{width:.4g} m round in the mean, {height:.4g} m along it, {area}"),
     ]
 
 

@@ -15,7 +15,7 @@ from ..results import CheckpointError, ResultError, frame_bytes, frames_of, load
 from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
-WAVES = "waves.csv"
+PARTS, WAVES = "parts.csv", "waves.csv"
 CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
 PICTURES = (
@@ -23,6 +23,7 @@ PICTURES = (
     "equilibrium_shape",
     "tension_plan",
     "tension_histogram",
+    "sections",
     "histories",
     "comparison",
     "waves",
@@ -76,7 +77,7 @@ def _memory() -> float:
 
 def _clear(folder: Path) -> None:
     pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
-    for name in (RESULT, SUMMARY, KNOTS, BARS, WAVES, CHECKPOINT, *pictures):
+    for name in (RESULT, SUMMARY, KNOTS, BARS, PARTS, WAVES, CHECKPOINT, *pictures):
         (folder / name).unlink(missing_ok=True)
 
 

@@ -15,6 +15,7 @@ from ..results import (
     flow_direction,
     moments,
     out_of_range,
+    part_figures,
     summary,
     water_figures,
 )
@@ -102,7 +103,8 @@ def _figures(result: Result, case: Case | None, system: System | None) -> dict[s
     )
     warnings = [*(() if case is None else case.warnings), *result.outcome.warnings]
     if system is not None:
-        figures |= water_figures(system, result)
+        depth = None if case is None else case.water.depth
+        figures |= water_figures(system, result) | part_figures(system, result, depth=depth)
         warnings += out_of_range(system, moments(result)).warnings
     figures["warnings"] = list(dict.fromkeys(warnings))
     return figures

@@ -27,15 +27,18 @@ from ..results import (
     mean_current,
     moments,
     out_of_range,
+    part_figures,
     probes_of,
     save,
     save_checkpoint,
     summary,
     water_figures,
+    write_parts,
     write_probes,
     write_summary,
     write_tables,
 )
+from ..results.parts import part_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
@@ -44,7 +47,7 @@ from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.system import System
-from .folder import BARS, CHECKPOINT, KNOTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
+from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
 from .progress import progress_bar
 from .show import (
     DONE,
@@ -148,6 +151,7 @@ def _run(
         probes = probes_of(system, result, case.output.probes)
     with timed("writing"):
         write_tables(result, folder)
+        write_parts(figures["parts"], folder)
         write_summary(figures, folder)
         if probes is not None:
             write_probes(probes, folder)
@@ -225,7 +229,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         flow_direction=flow_direction(system),
         audit=audit(system, result),
     )
-    figures |= water_figures(system, result)
+    figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
     figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
@@ -257,7 +261,7 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, *([WAVES] if (folder / WAVES).is_file() else [])])
+    tables = ", ".join([KNOTS, BARS, PARTS, *([WAVES] if (folder / WAVES).is_file() else [])])
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -280,6 +284,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *water_words(figures),
+        *part_words(figures),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),

@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @njit(**OPTIONS)
-def _water_on_bars(rel, el, t, length, out):
+def water_on_bars(rel, el, t, length, out):
     """Force of the water on every bar, both ends together, into out (m, 3) N; rel: (n, 3) relative velocity m/s."""
     for e in range(length.shape[0]):
         a, b = el.knot_a[e], el.knot_b[e]
@@ -46,7 +46,7 @@ def bar_tensions(system: System, state: State, t: Array, length: Array) -> Array
     return np.maximum(tension, 0.0)
 
 
-def _share_with_bars(forces: Array, sides: NDArray[np.int64], out: Array) -> None:
+def share_with_bars(forces: Array, sides: NDArray[np.int64], out: Array) -> None:
     """Add the forces of faces (p, 3) N in equal parts to the bars along their sides (p, 4), -1 for none."""
     share = forces / np.maximum((sides >= 0).sum(axis=1), 1)[:, None]
     for side in sides.T:
@@ -63,10 +63,10 @@ def evaluate(system: System, state: State) -> Frame:
     bar_geometry(state.position, el, t, length)
     tension = bar_tensions(system, state, t, length) if state.tension is None else state.tension
     rel, on_bars, total = u - state.velocity, np.empty((m, 3)), np.empty((n, 3))
-    _water_on_bars(rel, el, t, length, on_bars)
+    water_on_bars(rel, el, t, length, on_bars)
     surroundings.load(state.position, rel, el, t, length, total)
     if surroundings.screens is not None and surroundings.faces is not None:
-        _share_with_bars(surroundings.screens.forces(state.position, rel), surroundings.faces.bars, on_bars)
+        share_with_bars(surroundings.screens.forces(state.position, rel), surroundings.faces.bars, on_bars)
     water = total - system.elements.weight
     add_tension(tension, el, t, total)
     flow = 0.5 * (u[el.knot_a] + u[el.knot_b])

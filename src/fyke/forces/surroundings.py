@@ -17,7 +17,6 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..netting.faces import faces_of
 from ..system.elements import Elements
 from ..system.system import Displaced, System
 from .bars import water_load
@@ -114,7 +113,10 @@ def _by_law(x: Array, rel: Array, el: Elements) -> Elements:
 
 
 class Surroundings:
-    """The water around one net on its way; shelter is that of the shape of the last renewal."""
+    """The water around one net on its way.
+
+    left: (n, 1), the part of the current that shelter leaves, that of the shape of the last renewal.
+    """
 
     def __init__(self, system: System) -> None:
         self.system = system
@@ -124,10 +126,10 @@ class Surroundings:
             np.maximum.at(self._radius[1], bodies.knots, 0.5 * bodies.diameter)
         self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
         self._by_angle = not c.bar_mass.constant
-        self.faces = faces_of(net) if c.screens or c.wake or c.twines else None
+        self.faces = system.faces
         self.screens: Screens | None = None
         self._shelter: Shelter | None = None
-        self._left = np.ones((net.knot_count, 1))
+        self.left = np.ones((net.knot_count, 1))
         viscosity = system.water.kinematic_viscosity
         if self.faces is not None and c.screens is not None:
             self.screens = Screens.of(self.faces, c.screens, system.water.density, viscosity)
@@ -149,11 +151,10 @@ class Surroundings:
         """Whether knots at x (n, 3) m that rise by this much (m) come out of still water."""
         return self.system.surface and float(x[:, 2].max(initial=-np.inf)) + rise > -self._reach
 
-    def renew(self, x: Array, time: float, *, mean: bool = False) -> None:
-        """Find the shelter of positions x (n, 3) m, which holds until the next renewal; mean: of the last and this."""
+    def renew(self, x: Array, time: float) -> None:
+        """Find the shelter of positions x (n, 3) m, which holds until the next renewal."""
         if self._shelter is not None:
-            left = self._shelter.factors(x, self.system.current.velocity(x, time))[:, None]
-            self._left = 0.5 * (self._left + left) if mean else left
+            self.left = self._shelter.factors(x, self.system.current.velocity(x, time))[:, None]
 
     @property
     def shelters(self) -> bool:
@@ -177,7 +178,7 @@ class Surroundings:
     def velocity(self, x: Array, time: float) -> Array:
         """Velocity of the current at knots x (n, 3) m, sheltered, waves left out, (n, 3) m/s."""
         u = self.system.current.velocity(x, time)
-        return u if self._shelter is None else self._left * u
+        return u if self._shelter is None else self.left * u
 
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).

@@ -9,7 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from ..case.gear import PanelSpec, Part
+from ..case.rigging import BodiesSpec
 from ..case.schema import Case
+from ..case.shapes import RoundSpec
 
 Values = Mapping[str, float]
 Raw = dict[str, Any]
@@ -46,8 +49,13 @@ def knobs_of(case: Case) -> tuple[Knob, ...]:
         knobs += _twine(case, name)
     for name in case.netting:
         knobs += _netting(case, name)
-    for index in range(len(case.gear)):
-        knobs += _panel(case, index)
+    for index, part in enumerate(case.gear):
+        if isinstance(part, PanelSpec):
+            knobs += _panel(part, index)
+        elif isinstance(part, RoundSpec):
+            knobs += _round(part, index)
+        elif isinstance(part, BodiesSpec):
+            knobs += _bodies(part, index)
     return tuple(knobs)
 
 
@@ -137,24 +145,66 @@ def _netting(case: Case, name: str) -> list[Knob]:
     return knobs
 
 
-def _panel(case: Case, index: int) -> list[Knob]:
-    spec, key = case.gear[index], f"gear.{index}"
-    group = f"Panel {spec.name}".rstrip()
-    if spec.given_size is not None:
+def _put(index: int, name: str) -> Callable[[Raw, float], None]:
+    """Return what writes a key of a part of the gear."""
 
-        def side(which: int, label: str) -> Knob:
-            def put(raw: Raw, value: float) -> None:
-                size = raw["gear"][index]["size"] = list(raw["gear"][index]["size"])
-                size[which] = value
+    def put(raw: Raw, value: float) -> None:
+        raw["gear"][index][name] = value
 
-            return _length(f"{key}.{label}", group, f"Frame {label}", spec.size[which], put)
+    return put
 
-        return [side(0, "width"), side(1, "height")]
-    ratio = spec.hanging_ratio
+
+def _panel(spec: PanelSpec, index: int) -> list[Knob]:
+    key, group = f"gear.{index}", _group(spec)
+    if spec.given_size is None:
+        return _ratio(spec.hanging_ratio, index, group)
+
+    def side(which: int, label: str) -> Knob:
+        def put(raw: Raw, value: float) -> None:
+            size = raw["gear"][index]["size"] = list(raw["gear"][index]["size"])
+            size[which] = value
+
+        return _length(f"{key}.{label}", group, f"Frame {label}", spec.size[which], put)
+
+    return [side(0, "width"), side(1, "height")]
+
+
+def _round(spec: RoundSpec, index: int) -> list[Knob]:
+    """Sizes of netting round an axis; those of a frustum's two rims stay as they are."""
+    group = _group(spec)
+    sizes = [(name, getattr(spec, name)) for name in ("diameter", "height")]
+    knobs = [
+        _length(f"gear.{index}.{name}", group, name.capitalize(), value, _put(index, name))
+        for name, value in sizes
+        if isinstance(value, float)
+    ]
+    return knobs or _ratio(getattr(spec, "hanging_ratio", None), index, group)
+
+
+def _ratio(ratio: float | tuple[float, float] | None, index: int, group: str) -> list[Knob]:
+    key = f"gear.{index}.ratio"
     if not isinstance(ratio, float):
         return []
 
     def write(raw: Raw, values: Values) -> None:
-        raw["gear"][index]["hanging_ratio"] = values[f"{key}.ratio"]
+        raw["gear"][index]["hanging_ratio"] = values[key]
 
-    return [Knob(f"{key}.ratio", group, "Hanging ratio E1", "", 0.05, 0.95, 0.005, ratio, write)]
+    return [Knob(key, group, "Hanging ratio E1", "", 0.05, 0.95, 0.005, ratio, write)]
+
+
+def _bodies(spec: BodiesSpec, index: int) -> list[Knob]:
+    """The force in water of each float or sinker, where it is given."""
+    if spec.force is None:
+        return []
+    word = "weight" if spec.kind == "sinkers" else "buoyancy"
+    key, put = f"gear.{index}.{word}", _put(index, word)
+    low, high, step = _range(spec.force)
+
+    def write(raw: Raw, values: Values) -> None:
+        put(raw, values[key])
+
+    return [Knob(key, _group(spec), f"{word.capitalize()} of each", "N", low, high, step, spec.force, write)]
+
+
+def _group(spec: Part) -> str:
+    return f"{spec.kind.capitalize()} {spec.name}".rstrip()

@@ -1,6 +1,8 @@
 """Faces: the meshes of netting as plane pieces that the water pushes on, with corners at the knots.
 
-A mesh of diamond netting is a rhombus, half a mesh along the frame a triangle, a mesh of square netting a quadrangle.
+A mesh of diamond netting is a rhombus, half a mesh along the frame a triangle, a mesh of square netting a quadrangle. A
+hexagon is two quadrangles, cut along its long bars' direction; between the tips at its ends lie triangles, and of a
+flat panel the corners without a knot are left out.
 The corners go round a face so that its vector area N = 1/2 (x_c - x_a) x (x_d - x_b) points to the panel's normal,
 width x height. That is the vector area of any quadrangle, flat or not, and of a triangle a, b, c whose last corner is
 repeated.
@@ -14,7 +16,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Lattice, MeshKind, hanging_ratios
+from .hexagon import Hexagon
+from .lattice import Lattice, hanging_ratios
 from .measures import mesh_area, solidity
 from .net import Net, Panel
 
@@ -94,7 +97,7 @@ def _faces_of_panel(net: Net, panel: Panel, which: int) -> Faces:
             f"panel '{panel.name}' has {len(panel.knots)} knots, but {panel.meshes[0]} x {panel.meshes[1]} "
             f"{panel.mesh} meshes have {len(grid.knots)}: give it the knots of its own meshes"
         )
-    places = _square_corners(grid) if panel.mesh == "square" else _diamond_corners(grid)
+    places = _corners(panel, grid)
     corners = panel.knots[places]
     triangle = places[:, 3] == places[:, 2]
     a, b, c, d = net.positions[corners].transpose(1, 0, 2)
@@ -106,16 +109,34 @@ def _faces_of_panel(net: Net, panel: Panel, which: int) -> Faces:
         corners=corners,
         share=np.where(triangle[:, None], third, np.full(4, 0.25)),
         area=area,
-        solidity=_solidity(panel, twine.diameter, area * np.where(triangle, 2.0, 1.0)),
+        solidity=_solidity(panel, twine.diameter, area * _parts_of_a_mesh(panel, triangle)),
         diameter=np.full(count, twine.diameter),
         panel=np.full(count, which, dtype=np.int64),
         bars=_sides(panel, grid, places),
     )
 
 
+def _corners(panel: Panel, grid: Lattice) -> Indices:
+    kind = panel.kind
+    if isinstance(kind, Hexagon):
+        return _hexagon_corners(panel, grid, kind)
+    return _square_corners(grid) if kind == "square" else _diamond_corners(grid)
+
+
+def _parts_of_a_mesh(panel: Panel, triangle: NDArray[np.bool_]) -> Array:
+    """How many times a face goes into the area of a mesh, (p,)."""
+    kind = panel.kind
+    if not isinstance(kind, Hexagon):
+        return np.where(triangle, 2.0, 1.0)
+    ratios = hanging_ratios(kind, panel.meshes, panel.bar_length, panel.size)
+    across, rise = kind.rise(ratios)
+    whole, tip = kind.area(1.0, ratios), across * max(rise, 0.0)
+    return np.where(triangle, whole / tip if tip > 0.0 else 0.0, 2.0)
+
+
 def _solidity(panel: Panel, diameter: float, area: Array) -> Array:
     """Solidity of meshes of these areas (p,) m2 hung like the panel, whose ratios E1, E2 differ with its width."""
-    mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
+    mesh = panel.kind
     e1, e2 = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
     whole = mesh_area(mesh, panel.bar_length, (e1, e2))
     out = np.empty(len(area))
@@ -163,25 +184,42 @@ def _diamond_corners(grid: Lattice) -> Indices:
     return corners
 
 
+def _hexagon_corners(panel: Panel, grid: Lattice, hexagon: Hexagon) -> Indices:
+    """Halves of hexagons between two columns of knots, row by row, and triangles between the tips of both ends."""
+    index, shape = _places(grid), grid.intervals
+    if hexagon.turned:
+        index, shape = index.T, shape[::-1]
+    columns, rows = shape[0], shape[1] // 2
+    i, row = np.indices((columns, rows)).reshape(2, -1)
+
+    def knot(column: Indices, zigzag: Indices) -> Indices:
+        return index[column, 2 * zigzag + (column + zigzag + 1) % 2]
+
+    corners = [np.column_stack([knot(i, row), knot(i + 1, row), knot(i + 1, row + 1), knot(i, row + 1)])]
+    for first, end, inner in ((1, 0, 1), (rows % 2, shape[1], shape[1] - 1)):
+        tip = np.arange(first, columns - 1, 2)
+        if panel.closed and first == 1:
+            tip = np.append(tip, columns - 1)
+        after = np.where(tip + 2 > columns, tip + 2 - columns, tip + 2)
+        a, b, c = index[tip, end], index[tip + 1, inner], index[after, end]
+        corners.append(np.column_stack([c, b, a, a] if end == 0 else [a, b, c, c]))
+    every = np.concatenate(corners)
+    if not hexagon.turned:
+        return every
+    turned = every[:, ::-1].copy()
+    triangle = every[:, 3] == every[:, 2]
+    turned[triangle] = every[triangle][:, [2, 1, 0, 0]]
+    return turned
+
+
 def _sides(panel: Panel, grid: Lattice, corners: Indices) -> Indices:
-    """Bars (p, 4 s) from each corner to the next, all their segments; -1 where no bar joins them.
-
-    From any knot at most two bars go to knots of higher index: one rises, or goes along the width, the other does not.
-    """
-    j = grid.knots[:, 1]
-    low, high = np.sort(grid.bars, axis=1).T
-    bar_from, bar_to = np.full((2, 2, len(j)), -1, dtype=np.int64)
-    way = _way(panel, j, low, high)
-    bar_from[way, low] = np.arange(len(grid.bars))
-    bar_to[way, low] = high
+    """Bars (p, 4 s) from each corner to the next, all their segments; -1 where no bar joins them."""
+    count = len(grid.knots)
+    ends = np.sort(grid.bars, axis=1)
+    keys = ends[:, 0] * count + ends[:, 1]
+    order = np.argsort(keys, kind="stable")
     after = np.roll(corners, -1, axis=1)
-    low, high = np.minimum(corners, after), np.maximum(corners, after)
-    way = _way(panel, j, low, high)
-    there = (bar_to[way, low] == high)[:, :, None]
-    return np.where(there, panel.bars[bar_from[way, low]], -1).reshape(len(corners), -1)
-
-
-def _way(panel: Panel, j: Indices, low: Indices, high: Indices) -> Indices:
-    """Return which of two ways a side takes from its lower to its higher knot, 0 or 1; j: (n,) row of every knot."""
-    step = j[high] - j[low]
-    return (step > 0).astype(np.int64) if panel.mesh == "square" else (step < 0).astype(np.int64)
+    wanted = np.minimum(corners, after) * count + np.maximum(corners, after)
+    which = order[np.minimum(np.searchsorted(keys[order], wanted), len(keys) - 1)]
+    there = (keys[which] == wanted)[:, :, None]
+    return np.where(there, panel.bars[which], -1).reshape(len(corners), -1)

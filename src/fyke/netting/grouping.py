@@ -78,7 +78,12 @@ def grid_of(net: Net) -> Grid | None:
     if len(net.panels) != 1:
         return None
     panel = net.panels[0]
-    if panel.closed or len(panel.knots) != net.knot_count or panel.bars.shape != (net.bar_count, 1):
+    if (
+        panel.mesh == "hexagonal"
+        or panel.closed
+        or len(panel.knots) != net.knot_count
+        or panel.bars.shape != (net.bar_count, 1)
+    ):
         return None
     mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
     grid = Grid.of(mesh, panel.meshes)

@@ -1,4 +1,4 @@
-"""Mesh lattices of a rectangular panel: which knots, which bars, how far apart.
+"""Mesh lattices of a rectangular panel: which knots, which bars, how far apart; hexagons: netting.hexagon.
 
 Knots have a row and a column (i, j), i along the width and j along the height. Diamond netting has a knot wherever
 i + j is even, i = 0 .. 2 n, one half mesh diagonal apart; square netting has a knot at every (i, j), i = 0 .. n,
@@ -14,7 +14,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from .hexagon import Hexagon
+
+Array = NDArray[np.float64]
 MeshKind = Literal["diamond", "square"]
+Mesh = MeshKind | Hexagon
 Edge = Literal["edges", "top", "corners", "none"]
 
 # Lattice intervals per mesh along an axis.
@@ -37,20 +41,27 @@ class Lattice:
         i, j = self.knots.T
         at_side = ((i == 0) | (i == self.intervals[0])) & (not closed)
         at_end = (j == 0) | (j == self.intervals[1])
+        corners = np.zeros(len(i), dtype=bool)
+        for side in (0, self.intervals[0]):
+            # Hexagons have no knot in some corners; the last one of the side stands for it.
+            there = np.flatnonzero(i == side)
+            corners[[there[np.argmin(j[there])], there[np.argmax(j[there])]]] = not closed
         held: dict[Edge, NDArray[np.bool_]] = {
             "edges": at_side | at_end,
-            "corners": at_side & at_end,
+            "corners": corners,
             "top": j == self.intervals[1],
             "none": np.zeros(len(i), dtype=bool),
         }
         return held[where]
 
 
-def lattice(mesh: MeshKind, meshes: tuple[int, int]) -> Lattice:
+def lattice(mesh: Mesh, meshes: tuple[int, int]) -> Lattice:
     """Return the lattice of a panel of so many meshes along the width and the height.
 
-    An 8 x 8 diamond panel has 145 knots and 256 bars, an 8 x 8 square panel 81 and 144.
+    An 8 x 8 diamond panel has 145 knots and 256 bars, an 8 x 8 square panel 81 and 144, one of hexagons 153 and 212.
     """
+    if isinstance(mesh, Hexagon):
+        return Lattice(*mesh.grid(meshes))
     ni, nj = (INTERVALS[mesh] * count for count in meshes)
     i, j = (axis.ravel() for axis in np.meshgrid(np.arange(ni + 1), np.arange(nj + 1), indexing="ij"))
     if mesh == "diamond":
@@ -72,13 +83,39 @@ def lattice(mesh: MeshKind, meshes: tuple[int, int]) -> Lattice:
     return Lattice(np.column_stack([i, j]), all_bars[order], (ni, nj))
 
 
+def places(
+    grid: Lattice, mesh: Mesh, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
+) -> Array:
+    """Where the knots of a lattice lie, hung at a size (m), in even intervals (n, 2): at i, j but for hexagons."""
+    if isinstance(mesh, Hexagon):
+        return mesh.places(grid.knots, meshes, bar_length, size)
+    return grid.knots.astype(float)
+
+
+def rest_lengths(grid: Lattice, mesh: Mesh, bar_length: float) -> Array:
+    """Unloaded length of every bar of a lattice, (b,) m."""
+    long = mesh.long_bar if isinstance(mesh, Hexagon) else 1.0
+    which = mesh.long(grid.knots, grid.bars) if isinstance(mesh, Hexagon) else False
+    return np.asarray(bar_length * np.where(which, long, np.ones(len(grid.bars))))
+
+
+def taut_ratios(mesh: Mesh, first: float) -> tuple[float, float] | None:
+    """E1, E2 of netting with every bar just taut, from E1; None where no E2 is. Square netting: E1 = E2 = 1."""
+    if isinstance(mesh, Hexagon):
+        return mesh.taut(first)
+    return (first, float(np.sqrt(1.0 - first**2))) if mesh == "diamond" else None
+
+
 def hung_size(
-    mesh: MeshKind, meshes: tuple[int, int], bar_length: float, ratios: tuple[float, float]
+    mesh: Mesh, meshes: tuple[int, int], bar_length: float, ratios: tuple[float, float]
 ) -> tuple[float, float]:
     """Width and height (m) of a panel hung at ratios E1, E2 of its fully stretched width and height.
 
-    The stretched size is meshes x 2 bars for diamond netting and meshes x 1 bar for square netting.
+    The stretched size is meshes x 2 bars for diamond netting and meshes x 1 bar for square netting. bar_length of
+    hexagons: of the slanted bars.
     """
+    if isinstance(mesh, Hexagon):
+        return mesh.hung_size(meshes, bar_length, ratios)
     bars_per_mesh = INTERVALS[mesh]
     return (
         meshes[0] * bars_per_mesh * bar_length * ratios[0],
@@ -87,20 +124,24 @@ def hung_size(
 
 
 def hanging_ratios(
-    mesh: MeshKind, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
+    mesh: Mesh, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
 ) -> tuple[float, float]:
     """Return E1, E2: width and height over the fully stretched ones. Unloaded diamonds have E1^2 + E2^2 = 1."""
+    if isinstance(mesh, Hexagon):
+        return mesh.ratios(meshes, bar_length, size)
     full = hung_size(mesh, meshes, bar_length, (1.0, 1.0))
     return (size[0] / full[0], size[1] / full[1])
 
 
 def flat_strain(
-    mesh: MeshKind, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
+    mesh: Mesh, meshes: tuple[int, int], bar_length: float, size: tuple[float, float]
 ) -> tuple[float, ...]:
     """Strain of the bars of a flat panel spread on a frame of this size; negative where slack.
 
     One value for diamond netting, sqrt(E1^2 + E2^2) - 1; two for square netting, E1 - 1 along the width and
-    E2 - 1 along the height.
+    E2 - 1 along the height; of hexagons the slanted and the long ones.
     """
+    if isinstance(mesh, Hexagon):
+        return mesh.strains(meshes, bar_length, size)
     e1, e2 = hanging_ratios(mesh, meshes, bar_length, size)
     return (float(np.hypot(e1, e2)) - 1.0,) if mesh == "diamond" else (e1 - 1.0, e2 - 1.0)

@@ -1,6 +1,7 @@
 """Derived figures of netting: hanging ratios, solidity, twine area, mass.
 
-The cell that repeats itself over a panel has one knot and two bars, and the area of one mesh.
+The cell that repeats itself over a panel has one knot and two bars, and the area of one mesh; that of hexagons two
+knots and three bars, one of them long.
 """
 
 from __future__ import annotations
@@ -9,7 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .lattice import MeshKind, hanging_ratios
+from .hexagon import Hexagon
+from .lattice import Mesh, hanging_ratios
 from .net import Net, Panel
 
 KILOGRAM_PER_METRE_IN_TEX = 1e6  # tex is g/km
@@ -22,8 +24,8 @@ class PanelMeasures:
     hanging_ratios: width and height over the fully stretched ones; outline_area: of the frame (m2); solidity:
     solid projected area over outline area; twine_area: diameter times length of all bars, overlaps counted
     twice (m2); mass_per_area: dry mass of a cell, twine and knot, over its area (kg/m2); mesh_length: full
-    stretched mesh, two bars, knot centre to knot centre (m); rtex: mass per length of the twine (tex = g/km), as given
-    or that of fibre all through its cross-section.
+    stretched mesh, two bars and the long one of hexagons, knot centre to knot centre (m); rtex: mass per length of the
+    twine (tex = g/km), as given or that of fibre all through its cross-section.
     """
 
     hanging_ratios: tuple[float, float]
@@ -46,16 +48,19 @@ class NetMeasures:
     volume: float
 
 
-def mesh_area(mesh: MeshKind, bar_length: float, ratios: tuple[float, float]) -> float:
+def mesh_area(mesh: Mesh, bar_length: float, ratios: tuple[float, float]) -> float:
     """Area (m2) within one mesh, of bar length a (m), hung at E1, E2.
 
-    2 a^2 E1 E2 for a diamond with the diagonals 2 a E1 and 2 a E2; a^2 E1 E2 for a square.
+    2 a^2 E1 E2 for a diamond with the diagonals 2 a E1 and 2 a E2; a^2 E1 E2 for a square;
+    2 a (a + l) E1 E2 for a hexagon with long bars l, see netting.hexagon.
     """
+    if isinstance(mesh, Hexagon):
+        return mesh.area(bar_length, ratios)
     return {"diamond": 2.0, "square": 1.0}[mesh] * bar_length**2 * ratios[0] * ratios[1]
 
 
 def solidity(
-    mesh: MeshKind,
+    mesh: Mesh,
     bar_length: float,
     ratios: tuple[float, float],
     diameter: float,
@@ -69,11 +74,15 @@ def solidity(
         knotless square     d / (a E1) + d / (a E2) - d^2 / (a^2 E1 E2), which is 2 d/a - (d/a)^2 when taut
         knotted diamond     (2 d (a - d_k) + pi d_k^2 / 4) / (2 a^2 E1 E2)
         knotted square      (d (a E1 - d_k) + d (a E2 - d_k) + pi d_k^2 / 4) / (a^2 E1 E2)
+        hexagons            netting.hexagon.Hexagon.solid_area over the area of a mesh
 
     They count the area of straight bars and of discs for knots, less the overlap. Diamonds are counted with
     their whole twine, E1^2 + E2^2 = 1; netting hung slacker than that has its twine crowded into the outline.
     A knot no thicker than the twine hides in the crossing and counts as none.
     """
+    if isinstance(mesh, Hexagon):
+        covered = mesh.solid_area(bar_length, ratios, diameter, knot_diameter)
+        return float(min(1.0, covered / mesh_area(mesh, bar_length, ratios)))
     a, d, dk = bar_length, diameter, knot_diameter
     e1, e2 = ratios
     if mesh == "square":
@@ -90,18 +99,19 @@ def solidity(
 def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     """Return the figures of one panel of a net, hung on its frame."""
     twine = next(t for t in net.twines if t.name == panel.twine)
-    mesh: MeshKind = "square" if panel.mesh == "square" else "diamond"
+    mesh = panel.kind
     ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
     density = float(np.mean(net.knot_density[panel.knots]))
-    cell_mass = 2.0 * panel.bar_length * twine.mass_per_length
-    cell_mass += density * np.pi * panel.knot_diameter**3 / 6.0
+    knots = 2 if panel.mesh == "hexagonal" else 1
+    cell_mass = (2.0 * panel.bar_length + panel.long_bar) * twine.mass_per_length
+    cell_mass += knots * density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
         outline_area=panel.size[0] * panel.size[1],
         solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
         twine_area=float(twine.diameter * np.sum(net.rest_length[np.unique(panel.bars)])),
         mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),
-        mesh_length=2.0 * panel.bar_length,
+        mesh_length=2.0 * panel.bar_length + panel.long_bar,
         rtex=twine.mass_per_length * KILOGRAM_PER_METRE_IN_TEX,
     )
 

@@ -8,7 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Lattice, lattice
+from .hexagon import Hexagon
+from .lattice import Lattice, Mesh, lattice, places
 from .twine import Twine
 
 Array = NDArray[np.float64]
@@ -19,10 +20,12 @@ Side = Literal["top", "bottom", "left", "right"]
 class Panel:
     """Where one piece of netting lies within a Net, for plan views and derived figures.
 
-    shape: "panel" for a flat one, "cylinder", "cone" ...; mesh: "diamond" | "square"; meshes: along width and height;
-    size: width and height laid flat (m); bar_length: unloaded, knot centre to knot centre (m); knot_diameter: m, 0 when
-    knotless; twine: its name; closed: whether the width closes round. Of netting.lattice's knots and bars: knots: (k,)
-    knot of the net at each; bars: (b, s) bars of the net, the s segments of each.
+    shape: "panel" for a flat one, "cylinder", "cone" ...; mesh: "diamond" | "square" | "hexagonal"; meshes: along
+    width and height; size: width and height laid flat (m); bar_length: unloaded, knot centre to knot centre (m);
+    knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of the knots and bars of
+    netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
+    hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
+    width (T90).
     """
 
     name: str
@@ -36,18 +39,28 @@ class Panel:
     closed: bool
     knots: NDArray[np.int64]
     bars: NDArray[np.int64]
+    long_bar: float = 0.0
+    turned: bool = False
+
+    @property
+    def kind(self) -> Mesh:
+        """The kind of mesh, as functions of netting.lattice take it."""
+        if self.mesh == "hexagonal":
+            return Hexagon(self.long_bar / self.bar_length, self.turned)
+        return "square" if self.mesh == "square" else "diamond"
 
     @property
     def lattice(self) -> Lattice:
         """The lattice of the meshes."""
-        return lattice("square" if self.mesh == "square" else "diamond", self.meshes)
+        return lattice(self.kind, self.meshes)
 
     @property
     def flat(self) -> Array:
         """Where the lattice knots lie on the netting laid flat, about its middle, (k, 2) m."""
         grid = self.lattice
         intervals = np.array(grid.intervals, dtype=float)
-        return np.asarray((grid.knots - 0.5 * intervals) * (np.array(self.size) / intervals))
+        at = places(grid, self.kind, self.meshes, self.bar_length, self.size)
+        return np.asarray((at - 0.5 * intervals) * (np.array(self.size) / intervals))
 
     def edge(self, which: Side) -> NDArray[np.int64]:
         """Knots of the net along an edge, in order from left to right or from below."""

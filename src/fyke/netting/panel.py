@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Edge, MeshKind
+from .lattice import Edge, Mesh
 from .net import Net
 from .sheet import Netting, sheet
 from .twine import Twine
@@ -29,7 +29,7 @@ def panel_axes(normal: Array) -> Array:
 def panel(
     twine: Twine,
     *,
-    mesh: MeshKind,
+    mesh: Mesh,
     meshes: tuple[int, int],
     bar_length: float,
     size: tuple[float, float],
@@ -43,7 +43,8 @@ def panel(
 ) -> Net:
     """Lay a flat panel with evenly spaced knots on a frame.
 
-    meshes and size: along width and height (size in m); bar_length: m, knot centre to knot centre, unloaded;
+    meshes and size: along width and height (size in m); bar_length: m, knot centre to knot centre, unloaded, of
+    hexagons the slanted bars;
     knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out; segments: straight pieces of a
     bar. Knots are labelled "i-j", with "name:" before it when a name is given.
     """

@@ -33,7 +33,7 @@ def frustum(
     low, high = diameters
     if not (min(low, high) >= 0.0 and max(low, high) > 0.0 and height >= 0.0):
         raise ValueError(f"diameters {low:g} and {high:g} m and a height of {height:g} m make no frustum")
-    if min(low, high) == 0.0 and (netting.mesh == "square" or high == 0.0):
+    if min(low, high) == 0.0 and (netting.mesh != "diamond" or high == 0.0):
         raise ValueError("only diamond netting is gathered in a tip, and below: give the rim a diameter")
     if height == 0.0 and low == high:
         raise ValueError(f"two rims of {low:g} m at the same height have no netting between them")
@@ -64,19 +64,22 @@ def cage(
     *,
     diameter: float,
     depth: float,
+    lower: float | None = None,
     bottom: tuple[int, float] | None = None,
     top: tuple[float, float, float] = (0.0, 0.0, 0.0),
     fixed: Edge = "top",
     name: str = "cage",
 ) -> Net:
-    """Lay a round cage: a cylinder, closed below by a cone or a disc of the same diamond netting.
+    """Lay a round cage: a cylinder or a frustum, closed below by a cone or a disc of the same diamond netting.
 
-    meshes: around and along the depth; diameter, depth: m, of the cylinder; bottom: meshes from the rim to the middle
+    meshes: around and along the depth; diameter: m, of the upper rim; depth: m, of the wall; lower: diameter of the
+    lower rim, m, that of the upper one when None; bottom: meshes from the rim to the middle
     and how far (m) the middle hangs below the rim, 0 for flat; None for open; top: m, centre of the upper rim. Its
     panels are called NAME and NAME bottom.
     """
+    waist = diameter if lower is None else lower
     wall = frustum(
-        netting, meshes, diameters=(diameter, diameter), height=depth, centre=top, fixed=fixed, name=name
+        netting, meshes, diameters=(waist, diameter), height=depth, centre=top, fixed=fixed, name=name
     )
     if bottom is None:
         return wall
@@ -85,11 +88,11 @@ def cage(
     floor = frustum(
         netting,
         (meshes[0], deep),
-        diameters=(0.0, diameter),
+        diameters=(0.0, waist),
         height=sink,
         centre=rim,
         fixed="none",
-        name=f"{name} bottom",
+        name=f"{name} bottom".strip(),
     )
     whole = together([wall, floor])
     above, below = whole.panels

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Edge, Lattice, MeshKind, lattice
+from .hexagon import Hexagon
+from .lattice import Edge, Lattice, Mesh, lattice, places, rest_lengths
 from .net import Net, Panel
 from .twine import Twine
 
@@ -23,12 +24,13 @@ Surface = Callable[[Array, Array], Array]
 class Netting:
     """What netting is made of.
 
-    mesh: kind; bar_length: m, knot centre to knot centre, unloaded; knot_diameter: m, 0 for knotless; knot_density:
-    kg/m3, the twine's when None; segments: straight pieces that a bar is cut into, so that it can bow.
+    mesh: kind; bar_length: m, knot centre to knot centre, unloaded, of hexagons the slanted bars; knot_diameter: m,
+    0 for knotless; knot_density: kg/m3, the twine's when None; segments: straight pieces that a bar is cut into, so
+    that it can bow.
     """
 
     twine: Twine
-    mesh: MeshKind
+    mesh: Mesh
     bar_length: float
     knot_diameter: float = 0.0
     knot_density: float | None = None
@@ -52,16 +54,22 @@ def sheet(
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
     knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with
     "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
-    "0-0>1-1.1".
+    "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to a tip.
     """
+    hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
+    if hexagon and (tip or (closed and hexagon.turned)):
+        raise ValueError(
+            "hexagonal netting closes round with its long bars along the height (T0), and has no tip"
+        )
     grid = lattice(netting.mesh, meshes)
     intervals = np.array(grid.intervals, dtype=float)
+    at = places(grid, netting.mesh, meshes, netting.bar_length, size)
     own, knots = _own_knots(grid, closed, tip)
     ends, bars = _own_bars(grid, knots, closed)
     prefix = f"{name}:" if name else ""
     labels = [f"{prefix}{i}-{j}" for i, j in grid.knots[own].tolist()]
     positions, held = (
-        surface(grid.knots[own] - 0.5 * intervals, intervals),
+        surface(at[own] - 0.5 * intervals, intervals),
         grid.held(fixed, closed=closed)[own],
     )
     n, s = len(own), netting.segments
@@ -78,7 +86,7 @@ def sheet(
     where = Panel(
         name=name,
         shape=shape,
-        mesh=netting.mesh,
+        mesh="hexagonal" if isinstance(netting.mesh, Hexagon) else netting.mesh,
         meshes=meshes,
         size=size,
         bar_length=netting.bar_length,
@@ -87,13 +95,17 @@ def sheet(
         closed=closed,
         knots=knots,
         bars=np.arange(m).reshape(-1, s)[bars],
+        long_bar=hexagon.long_bar * netting.bar_length if hexagon else 0.0,
+        turned=hexagon.turned if hexagon else False,
     )
+    rest_length = np.empty(len(ends))
+    rest_length[bars] = rest_lengths(grid, netting.mesh, netting.bar_length) / s
     return Net(
         positions=np.concatenate([positions, between.reshape(-1, 3)]),
         labels=tuple(labels),
         fixed=np.concatenate([held, np.zeros(inner_count, dtype=bool)]),
         bars=chains,
-        rest_length=np.full(m, netting.bar_length / s),
+        rest_length=np.repeat(rest_length, s),
         twines=(twine,),
         twine_of_bar=np.zeros(m, dtype=np.int64),
         knot_diameter=np.concatenate([np.full(n, netting.knot_diameter), np.zeros(inner_count)]),

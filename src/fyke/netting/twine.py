@@ -73,7 +73,7 @@ class Twine:
     damping (s), tension = T(strain) + damping_time dT/dt, zero by default and never letting a bar push; loss_factor:
     tan delta, which adds to the retardation time of each bar as much as makes this loss at the bar's ringing, see
     system.build.ringing; linear_density: mass per length (kg/m), Rtex in SI, where the twine is known to be porous;
-    None: fibre all through the cross-section.
+    None: fibre all through the cross-section; breaking_strength: N, None where it is not known.
     """
 
     name: str
@@ -84,6 +84,7 @@ class Twine:
     material: str = ""
     loss_factor: float = 0.0
     linear_density: float | None = None
+    breaking_strength: float | None = None
 
     @property
     def area(self) -> float:

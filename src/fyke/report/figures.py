@@ -18,6 +18,7 @@ from .histogram import tension_histogram
 from .histories import histories
 from .overlay import shape_comparison
 from .plan import tension_plan
+from .sections import sections
 from .shapes import equilibrium_shape, initial_position
 from .waves import wave_histories
 
@@ -27,6 +28,7 @@ __all__ = [
     "figures_of",
     "histories",
     "initial_position",
+    "sections",
     "shape_comparison",
     "tension_histogram",
     "tension_plan",
@@ -55,8 +57,8 @@ def draw_all(
 
     comparison: adds the overlay of measured positions; current: (3,) m/s, undisturbed, for the arrow of the initial
     position and the direction of drag; waves: (3,) direction in which they go, for an arrow of their own, and for drag
-    where there is no current; probes: adds the waves. A result of more than one frame has histories. Return the files
-    written.
+    where there is no current; probes: adds the waves. A result of more than one frame has histories, closed
+    netting its sections. Return the files written.
     """
     figures = figures_of(result, comparison=comparison, current=current, waves=waves, probes=probes)
     return [file for name, figure in figures.items() for file in write_figure(figure, Path(folder) / name)]
@@ -77,6 +79,9 @@ def figures_of(
         "tension_plan": tension_plan(result),
         "tension_histogram": tension_histogram(result),
     }
+    cut = sections(result, current=current, waves=waves)
+    if cut is not None:
+        figures["sections"] = cut
     if len(result.time) > 1:
         flow = waves if current is None or not np.any(current) else current
         figures["histories"] = histories(result, current=flow)

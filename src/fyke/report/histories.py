@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, MaxNLocator
 from numpy.typing import ArrayLike, NDArray
 
+from ..results.volume import volume_history
 from ..solve.result import Result
 from . import style
 from .ticks import STEPS
@@ -52,11 +53,14 @@ def histories(result: Result, *, current: ArrayLike | None = None) -> Figure:
 
 
 def curves(result: Result, current: ArrayLike | None) -> list[tuple[str, Array, str]]:
-    """Name, values (k,) and unit of what is followed through a run; current as for `histories`."""
+    """Name, values (k,) and unit of what is followed through a run, a sack's volume too; current as for `histories`."""
+    volumes = volume_history(result)
+    sack = [] if volumes is None else [("Enclosed volume", volumes[1], "m³")]
     return [
         ("Centre deflection", centre_deflection(result), "m"),
         ("Drag", drag(result, current), "N"),
         ("Largest tension", result.tension.max(axis=1, initial=0.0), "N"),
+        *sack,
         (ENERGY, result.kinetic_energy, "J"),
     ]
 

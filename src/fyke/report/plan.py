@@ -223,13 +223,13 @@ def _laid_flat(net: Net, panel: Panel) -> Array:
     """Where the lattice knots lie on the netting laid flat (k, 2) m, every row as wide as it was built."""
     grid, points = panel.lattice, panel.flat
     order = np.lexsort((grid.knots[:, 0], grid.knots[:, 1]))
-    i, j = grid.knots[order].T
+    j, across = grid.knots[order, 1], points[order, 0]
     step = np.linalg.norm(np.diff(net.positions[panel.knots[order]], axis=0), axis=1)
     row = j[1:] == j[:-1]
     length = np.bincount(j[1:][row], step[row], minlength=grid.intervals[1] + 1)
-    spans = np.bincount(j[1:][row], np.diff(i)[row], minlength=grid.intervals[1] + 1)
+    spans = np.bincount(j[1:][row], np.diff(across)[row], minlength=grid.intervals[1] + 1)
     told = np.flatnonzero(spans)
     if len(told):
-        width = np.interp(np.arange(len(spans)), told, grid.intervals[0] * length[told] / spans[told])
-        points[:, 0] *= width[grid.knots[:, 1]] / panel.size[0]
+        wider = np.interp(np.arange(len(spans)), told, length[told] / spans[told])
+        points[:, 0] *= wider[grid.knots[:, 1]]
     return points

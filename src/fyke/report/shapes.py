@@ -155,8 +155,13 @@ def _legend(net: Net, other: str, width: float) -> float:
 
 def _draw_flow(figure: Figure, view: View, direction: Array, words: str, corner: tuple[float, float]) -> None:
     """Draw an arrow as a direction (3,) is seen, with words beside it; corner: in, of its middle."""
+    draw_arrow(figure, view.axes[:2] @ direction, words, corner)
+
+
+def draw_arrow(figure: Figure, step: Array, words: str, corner: tuple[float, float]) -> None:
+    """Draw the arrow of a flow whose unit vector goes by a step (2,) on paper; corner: in, of its middle."""
     left, up = corner
-    du, dv = view.axes[:2] @ direction * ARROW_LENGTH / 2.0
+    du, dv = step * ARROW_LENGTH / 2.0
     arrow = FancyArrowPatch(
         (left - du, up - dv),
         (left + du, up + dv),

@@ -84,7 +84,12 @@ def styled(draw: Callable[P, R]) -> Callable[P, R]:
 
 
 def prefixed(largest: float, unit: str) -> tuple[float, str]:
-    """Return factor and unit that write values up to `largest` (SI) in few digits: 0.004, "N" gives 1000, "mN"."""
+    """Return factor and unit that write values up to `largest` (SI) in few digits: 0.004, "N" gives 1000, "mN".
+
+    A prefix would be squared or cubed with its unit, so m² and m³ stay as they are.
+    """
+    if unit.endswith(("²", "³")):
+        return 1.0, unit
     for limit, factor, prefix in ((1e6, 1e-6, "M"), (1e3, 1e-3, "k"), (0.1, 1.0, ""), (1e-4, 1e3, "m")):
         if largest >= limit:
             return factor, prefix + unit

@@ -5,6 +5,7 @@ from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkp
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .layout import frame_bytes
+from .parts import PartFigures, by_part, part_figures, write_parts
 from .probes import Probes, probe, probes_of, write_probes
 from .ranges import OutOfRange, moments, out_of_range
 from .recorder import Recorder
@@ -19,10 +20,12 @@ __all__ = [
     "EnergyBudget",
     "MeasurementError",
     "OutOfRange",
+    "PartFigures",
     "Probes",
     "Recorder",
     "ResultError",
     "audit",
+    "by_part",
     "compare",
     "flow_direction",
     "frame_bytes",
@@ -32,12 +35,14 @@ __all__ = [
     "mean_current",
     "moments",
     "out_of_range",
+    "part_figures",
     "probe",
     "probes_of",
     "save",
     "save_checkpoint",
     "summary",
     "water_figures",
+    "write_parts",
     "write_probes",
     "write_summary",
     "write_tables",

@@ -11,11 +11,15 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.faces import Faces, faces_of
+from ..netting.faces import faces_of
 from ..netting.net import Net
+from ..solve.result import Result
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
+
+# Volume over the cube of the largest extent below which netting is flat.
+FLAT = 1e-6
 
 
 def enclosed_volume(net: Net, positions: Array, panels: Sequence[str] | None = None) -> float | None:
@@ -23,15 +27,38 @@ def enclosed_volume(net: Net, positions: Array, panels: Sequence[str] | None = N
 
     None where they are no sack: netting whose open edges do not run round closed rims.
     """
+    sack = _sack(net, panels)
+    return None if sack is None else _volume(*sack, positions)
+
+
+def volume_history(result: Result) -> tuple[float, Array] | None:
+    """Return the volume (m3) that all netting of a net encloses as built, and in every frame (k,).
+
+    None where it is no sack, or one without volume as built, such as a flat panel.
+    """
+    net = result.net
+    sack = _sack(net, None) if net.panels else None
+    if sack is None:
+        return None
+    built = _volume(*sack, net.positions)
+    if built <= FLAT * float(np.ptp(net.positions, axis=0).max()) ** 3:
+        return None
+    return built, np.array([_volume(*sack, positions) for positions in result.position])
+
+
+def _sack(net: Net, panels: Sequence[str] | None) -> tuple[Indices, list[Indices]] | None:
+    """Corners (p, 4) of the faces of some panels, and the rims that they leave open; None where they are no sack."""
     faces = faces_of(net)
     wanted = [k for k, one in enumerate(net.panels) if panels is None or one.name in panels]
-    own = np.isin(faces.panel, wanted)
-    pieces = _pieces(faces, own, positions)
-    rims = _rims(faces.corners[own])
-    if rims is None:
-        return None
-    middle = positions[np.unique(faces.corners[own])].mean(axis=0)
-    volume = sum(float(np.sum((c - middle) * n)) for c, n in pieces)
+    corners = faces.corners[np.isin(faces.panel, wanted)]
+    rims = _rims(corners)
+    return None if rims is None or not len(corners) else (corners, rims)
+
+
+def _volume(corners: Indices, rims: list[Indices], positions: Array) -> float:
+    """Volume (m3) within faces (p, 4) and lids on their rims, with the knots at positions (n, 3) m."""
+    middle = positions[np.unique(corners)].mean(axis=0)
+    volume = sum(float(np.sum((c - middle) * n)) for c, n in _pieces(corners, positions))
     for rim in rims:
         centre = positions[rim].mean(axis=0)
         ahead = positions[np.roll(rim, -1)]
@@ -42,9 +69,8 @@ def enclosed_volume(net: Net, positions: Array, panels: Sequence[str] | None = N
     return abs(volume) / 3.0
 
 
-def _pieces(faces: Faces, own: NDArray[np.bool_], x: Array) -> list[tuple[Array, Array]]:
+def _pieces(corners: Indices, x: Array) -> list[tuple[Array, Array]]:
     """Middles (p, 3) m and vector areas (p, 3) m2 of the triangles that faces are cut into along one diagonal."""
-    corners = faces.corners[own]
     out = []
     for which in ((0, 1, 2), (0, 2, 3)):
         a, b, c = (x[corners[:, k]] for k in which)

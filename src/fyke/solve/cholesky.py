@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 
 # GMRES ends at this residual, over the right side, in the Euclidean norm, or after so many iterations.
 TOLERANCE, MOST_ITERATIONS = 1e-12, 60
-# Bytes that CHOLMOD takes for n unknowns, over n log2(n): as in engines.
-_CHOLMOD = 53.0
+# Bytes that CHOLMOD takes for n unknowns and e entries, over e log2(n): as in engines.
+_CHOLMOD = 3.5
 
 
 class Cholmod:
@@ -34,7 +34,7 @@ class Cholmod:
         from cvxopt import cholmod, spmatrix
 
         n = pattern.size
-        check_memory(_CHOLMOD * n * np.log2(max(n, 2)) + 8.0 * MOST_ITERATIONS * n)
+        check_memory(_CHOLMOD * len(pattern.indices) * np.log2(max(n, 2)) + 8.0 * MOST_ITERATIONS * n)
         self._pattern, self._cholmod = pattern, cholmod
         columns = np.repeat(np.arange(n), np.diff(pattern.indptr))
         # The pattern is symmetric: turned over, entry k lies where the mirror image of k lay.

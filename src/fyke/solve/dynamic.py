@@ -13,7 +13,7 @@ from ..forces.evaluate import evaluate
 from ..forces.frame import Frame
 from ..system.system import State, System
 from .auto import Auto, AutoRun
-from .outcome import Outcome, OutcomeName, out_of_memory
+from .outcome import Outcome, Verdict, out_of_memory
 from .result import Result
 from .stepper import Count, Memory, Run, Status, Stepper
 from .strain import strain_warnings
@@ -205,9 +205,6 @@ def _step_warnings(system: System, state: State, method: Stepper) -> tuple[str, 
         f"max_step {method.max_step:g} s is above the stability bound {bound:.3g} s of the {method.name} stepper on "
         "this net; the bound is used",
     )
-
-
-Verdict = tuple[OutcomeName, str, str]
 
 
 def _loop(

@@ -158,10 +158,11 @@ class RslabSmall:
         return True
 
 
-# Bytes that SuperLU takes for n unknowns, over n log2(n), which is the law of fill on planar graphs, as nets are (R.J.
-# Lipton, D.J. Rose, R.E. Tarjan, Generalized nested dissection, SIAM J. Numer. Anal. 16, 346-358, 1979): the most found
-# on panels of 60 000 to 960 000 unknowns.
-_SUPERLU = 150.0
+# Bytes that SuperLU takes for n unknowns and e entries of the matrix, over e log2(n): n log2(n) is the law of fill on
+# planar graphs, as nets are (R.J. Lipton, D.J. Rose, R.E. Tarjan, Generalized nested dissection, SIAM J. Numer. Anal.
+# 16, 346-358, 1979), and faces, which nearly double the entries, nearly double the fill. The most found on panels of
+# 60 000 to 960 000 unknowns.
+_SUPERLU = 10.0
 
 
 class SuperLU:
@@ -171,7 +172,7 @@ class SuperLU:
 
     def __init__(self, pattern: Pattern) -> None:
         self._pattern = pattern
-        check_memory(_SUPERLU * pattern.size * np.log2(max(pattern.size, 2)))
+        check_memory(_SUPERLU * len(pattern.indices) * np.log2(max(pattern.size, 2)))
 
     def renew(self) -> None:
         """Nothing is kept."""

@@ -64,13 +64,16 @@ class Work:
 
 
 class Equilibrium:
-    """Positions about the net's middle, the forces there, and how often the tangent was factorized."""
+    """Positions about the net's middle, the forces there, and how often the tangent was factorized.
+
+    follows: the shelter is that of the present shape at every step; else it is held until it is renewed.
+    """
 
     def __init__(self, system: System, start: State, linear: Factorizer | None) -> None:
         self.system, self.el = system, system.elements
         self.surroundings, self.time = Surroundings(system), start.time
         self.pattern = Pattern.of(self.el, self.surroundings.groups)
-        self.surroundings.renew(start.position, start.time)
+        self.follows = self.surroundings.shelters
         self.linear = linear or factorizer(self.pattern)
         # About the net's middle, coordinates are smallest and so is their rounding.
         self.origin = start.position.mean(axis=0)
@@ -90,6 +93,8 @@ class Equilibrium:
 
     def true_residual(self) -> tuple[float, int]:
         """Largest unbalanced force (N) on a free knot, and that knot."""
+        if self.follows:
+            self.surroundings.renew(self.x + self.origin, self.time)
         self.el, self.u = self.surroundings.at(self.x + self.origin, self._still, self.time)
         b, el = self.b, self.el
         bar_geometry(self.x, el, b.t, b.length)
@@ -100,9 +105,9 @@ class Equilibrium:
         worst, where = largest_on_free(b.total, el.free)
         return float(worst), int(where)
 
-    def renew(self, *, mean: bool) -> None:
-        """Find the shelter of the present shape, or the mean of the last and this one, and the forces in it."""
-        self.surroundings.renew(self.x + self.origin, self.time, mean=mean)
+    def renew(self) -> None:
+        """Find the shelter of the present shape, and the forces in it."""
+        self.surroundings.renew(self.x + self.origin, self.time)
         self.residual, self.worst = self.true_residual()
 
     def factor(self) -> Solve:

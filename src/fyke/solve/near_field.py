@@ -19,6 +19,8 @@ LARGEST_ROTATION = 0.5
 # Least centring where rotations cut the step below CUT.
 LEAST_CENTRING_CUT = 0.1
 CUT = 0.3
+# Least tension over slack and slack over tension: below the rounding of the other, a step to the edge has no length.
+LEAST = float(np.finfo(float).eps)
 
 
 class Near:
@@ -31,6 +33,7 @@ class Near:
         z = np.zeros
         self.along, self.target, self.cross, self.r, self.bent = z(m), z(m), z(m), z(m), z(m)
         self.de, self.dT, self.dw = z(m), z(m), z(m)
+        self._keep_off_the_edge()
 
     @classmethod
     def after(cls, far: Far) -> Near:
@@ -63,8 +66,13 @@ class Near:
         step: float = min(turning, edge * path.path_step(self.T, self.w, self.dT, self.dw))
         self.T += step * self.dT
         self.w += step * self.dw
+        self._keep_off_the_edge()
         s.accept(step)
         return step
+
+    def _keep_off_the_edge(self) -> None:
+        np.maximum(self.T, LEAST * self.w, out=self.T)
+        np.maximum(self.w, LEAST * self.T, out=self.w)
 
     def _direction(self, solve: Solve, mu: float, r: Array) -> float:
         s, b = self.s, self.s.b

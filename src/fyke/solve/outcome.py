@@ -18,9 +18,12 @@ OutcomeName = Literal[
     "interrupted",
 ]
 
+# Name, message and advice.
+Verdict = tuple[OutcomeName, str, str]
 
-def out_of_memory(error: MemoryError) -> tuple[OutcomeName, str, str]:
-    """Name, message and advice for a solve that there is no room for."""
+
+def out_of_memory(error: MemoryError) -> Verdict:
+    """Return the verdict on a solve that there is no room for."""
     return (
         "out_of_memory",
         str(error) or "the memory ran out",

@@ -5,6 +5,8 @@ makes no false stretch. As soon as one bar is within NEAR of its cone's edge, th
 (solve.central_path), which end quadratically. Both use the full tangent, the water's load included, with one sparse LU
 an iteration and two solves with it. A net on which they do not arrive relaxes in time (solve.relaxation). The end is
 judged on the true residual: the largest unbalanced force on a free knot with tensions by the elastic law itself.
+Shelter is that of the present shape at every step, though the tangent does not know how it changes; where that way
+does not arrive it is held between renewals (solve.held_shelter).
 """
 
 from __future__ import annotations
@@ -22,10 +24,11 @@ from ..forces.evaluate import evaluate
 from ..system.system import State, System
 from .equilibrium import Equilibrium
 from .far_field import Far
+from .held_shelter import by_renewals
 from .linear import Factorizer, SingularMatrixError
 from .near_field import Near
 from .nested import Nested, nested_start
-from .outcome import Outcome, OutcomeName, out_of_memory
+from .outcome import Outcome, Verdict, out_of_memory
 from .relaxation import relax
 from .result import Result
 from .strain import strain_warnings
@@ -44,9 +47,6 @@ SHORT, SHORT_STEPS = 1e-2, 5
 WARM_STEPS = 25
 # The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
 PATIENCE = 50
-# Renewals of the shelter; from SETTLING on the mean of the old and the new one is taken, which ends steps to and fro.
-# Between two renewals the unbalanced force falls to CLOSER of what the last one made.
-MOST_RENEWALS, SETTLING, CLOSER = 40, 15, 0.02
 # Floating parts that are named one by one.
 NAMED_PARTS = 3
 
@@ -87,8 +87,11 @@ def solve_static(
     else:
         try:
             name, message, advice = _iterate(s, tolerance, max_iterations, begin.tension, on_progress)
-            if name == "converged" and s.surroundings.shelters:
-                name, message, advice = _with_shelter(s, tolerance, max_iterations, on_progress)
+            if name != "converged" and s.follows:
+                s.begin_at(begin.position - s.origin)
+                name, message, advice = by_renewals(
+                    s, tolerance, begin.tension, lambda to, f: _iterate(s, to, max_iterations, f, on_progress)
+                )
         except KeyboardInterrupt:
             name, message, advice = _interrupted(s)
         except MemoryError as error:
@@ -146,10 +149,7 @@ def _nested(system: System, begin: State, tolerance: float, on_progress: Progres
     def solve(coarse: System, at: State, loosely: float) -> Result:
         return solve_static(coarse, tolerance=loosely, start=at, on_progress=report)
 
-    c = system.coefficients
-    # Faces of grouped meshes are not those of the real ones.
-    by_faces = c.screens or c.wake or c.twines
-    return nested_start(system, begin, tolerance, solve) if begin.tension is None and not by_faces else None
+    return nested_start(system, begin, tolerance, solve) if begin.tension is None else None
 
 
 def loose_parts(system: System) -> list[NDArray[np.int64]]:
@@ -161,9 +161,6 @@ def loose_parts(system: System) -> list[NDArray[np.int64]]:
     size[part[el.free == 0.0]] = 0
     loose = np.flatnonzero(size)
     return [np.flatnonzero(part == which) for which in loose[np.argsort(-size[loose], kind="stable")]]
-
-
-Verdict = tuple[OutcomeName, str, str]
 
 
 def _floating(system: System, parts: list[NDArray[np.int64]]) -> Verdict:
@@ -204,8 +201,8 @@ def _iterate(
             )
 
     patience = PATIENCE + (0 if tension is None else WARM_STEPS)
-    fault = _interior_point(s, there, min(limit, patience), tension, report)
-    if not there() and s.iterations < limit:
+    fault = _interior_point(s, there, min(limit, s.iterations + patience), tension, report)
+    if not there() and s.iterations < limit and not s.follows:
         s.begin_at(begin)
         end = relax(s, there, limit, report)
         if end == "not_finite":
@@ -221,30 +218,12 @@ def _iterate(
     return _out_of_iterations(s) if fault is None else _no_inverse(s, fault)
 
 
-def _with_shelter(s: Equilibrium, tolerance: float, limit: int, on_progress: Progress | None) -> Verdict:
-    """Renew the shelter at the shape found and go on from there, until it leaves the net where it is."""
-    for renewal in range(1, MOST_RENEWALS + 1):
-        s.renew(mean=renewal > SETTLING)
-        if s.residual <= max(tolerance, s.floor):
-            found = f"largest unbalanced force {s.residual:.1e} N after {s.iterations} iterations"
-            return "converged", f"{found}, shelter renewed {renewal} times", ""
-        near_by = max(tolerance, CLOSER * s.residual)
-        tension = np.maximum(s.b.f, 0.0)
-        verdict = _iterate(s, near_by, s.iterations + limit, tension, on_progress)
-        if verdict[0] != "converged":
-            return verdict
-    return (
-        "stalled",
-        f"the shelter still moves the net after {MOST_RENEWALS} renewals, by {s.residual:.1e} N",
-        "leave the wake out, or take a factor for it; knots at its rim may step in and out of it",
-    )
-
-
 def _interior_point(
     s: Equilibrium, there: Callable[[], bool], limit: int, tension: Array | None, report: Callable[[], None]
 ) -> SingularMatrixError | None:
     """Far field, then near field; a warm start has a field of its own. Returns the fault that ended it, if any."""
     begin, gap, short = s.x.copy(), NEAR, 0
+    warm_end = s.iterations + WARM_STEPS
     warm = tension is not None
     field: Far | Near | Warm = Far(s) if tension is None else Warm(s, tension)
     while not there() and s.iterations < limit:
@@ -260,7 +239,7 @@ def _interior_point(
         short = short + 1 if step < SHORT else 0
         if short >= SHORT_STEPS and (isinstance(field, Far) or gap <= LEAST_NEAR):
             return None
-        if short >= SHORT_STEPS or (warm and s.iterations >= WARM_STEPS):
+        if short >= SHORT_STEPS or (warm and s.iterations >= warm_end):
             # The near field jams when it begins too far off: once more from the start, with a longer far field.
             gap = gap if warm else gap * NEARER
             warm, short = False, 0

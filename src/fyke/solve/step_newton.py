@@ -109,6 +109,9 @@ class StepNewton:
 
     def _iterate(self, iteration: int) -> float:
         """One Newton iteration; returns the part of its step that was taken."""
+        if iteration == 1:
+            # The shelter was that of positions without the accelerations, which are off in long steps close to rest.
+            self.surroundings.renew(self.x, self.time)
         self._residual()
         solve = self._factor()
         turn = self._direction(solve, self.r)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..case.schema import Case
+from ..netting.faces import faces_of
 from ..netting.net import Net
-from ..netting.panel import panel
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
 from ..water.current import Current, UniformCurrent
@@ -23,6 +23,7 @@ from ..water.waves import Waves
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import Elements
 from .laws import Coefficients, Water
+from .rigging import rigged
 from .system import Displaced, System
 
 Array = NDArray[np.float64]
@@ -33,27 +34,10 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its gear, in the order of the file."""
+    """Make the net of a case: all its netting in the order of the file, then its ropes, floats and sinkers."""
     twines = case.twines
-    parts = []
-    for gear in case.gear:
-        netting = case.netting[gear.netting]
-        parts.append(
-            panel(
-                twines[netting.twine],
-                mesh=netting.mesh,
-                meshes=gear.meshes,
-                bar_length=netting.bar_length,
-                size=gear.size,
-                knot_diameter=netting.knot_diameter or 0.0,
-                knot_density=netting.knot_density,
-                centre=gear.centre,
-                normal=gear.normal,
-                fixed=gear.fixed,
-                name=gear.name,
-            )
-        )
-    return together(parts)
+    made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
+    return rigged(together([piece.lay(netting, twines[netting.twine]) for piece, netting in made]), case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -148,6 +132,7 @@ def make_system(
         displaced=Displaced(0.5 * w.density * volume, w.density * knot_volume),
         waves=waves,
         surface=surface or waves is not None,
+        faces=faces_of(net) if c.screens or c.wake or c.twines else None,
         sources=_sources(net, c, damping, waves),
     )
 

@@ -1,7 +1,8 @@
 """The system of a panel with grouped meshes: larger meshes on the same frame that behave like the many.
 
 n x n meshes in one: a bar n times as long has the stiffness EA of n bars side by side, their drag n d, and the weight,
-buoyancy and mass of n^2 bars; a knot has the drag area, weight and mass of n^2 knots.
+buoyancy and mass of n^2 bars; a knot has the drag area, weight and mass of n^2 knots. A face has the solidity and the
+twine of those it stands for.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from ..netting.faces import Faces, faces_of
 from ..netting.grouping import Grid, carry, nearest
 from ..netting.net import Net
 from .elements import Elements
@@ -65,14 +67,23 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         knot_slopes=el.knot_slopes,
     )
     displaced = Displaced(side * longer * system.displaced.bar[bars], side**2 * system.displaced.knot[knots])
+    small = _net(net, fine, coarse, knots, bars, elements)
     return replace(
         system,
-        net=_net(net, fine, coarse, knots, bars, elements),
+        net=small,
         elements=elements,
         displaced=displaced,
+        faces=None if system.faces is None else _faces(small, system.faces),
         sources=(),
         case_text="",
     )
+
+
+def _faces(net: Net, fine: Faces) -> Faces:
+    """Faces of the coarse net; the bars and twines of it are not what makes their solidity."""
+    faces = faces_of(net)
+    ones = np.ones(faces.count)
+    return replace(faces, solidity=fine.solidity[0] * ones, diameter=fine.diameter[0] * ones)
 
 
 def _longer(net: Net, fine: Grid, many: Array, which: int) -> float:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..netting.faces import Faces
 from ..netting.net import Net
 from ..water.current import Current
 from ..water.waves import Waves
@@ -43,7 +44,8 @@ class System:
     """A net in water, frozen: the net, the water around it and the arrays of the kernels.
 
     weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; surface: what rises above the
-    surface is dry, else water is everywhere; sources: one line for each law, with what it says and where it comes
+    surface is dry, else water is everywhere; faces: the meshes of its netting where screens or shelter ask for them,
+    else None; sources: one line for each law, with what it says and where it comes
     from; case_text: the case file behind it, "" when made in Python.
     """
 
@@ -56,6 +58,7 @@ class System:
     displaced: Displaced
     waves: Waves | None = None
     surface: bool = False
+    faces: Faces | None = None
     sources: tuple[str, ...] = ()
     case_text: str = ""
 

@@ -25,7 +25,7 @@ from ...solve.result import Result
 from ...system.system import System
 from ..figures import OPTIONS, figures_of
 from ..histories import curves
-from ..style import styled
+from ..style import SINGLE_COLUMN, styled
 from . import words
 from .packing import STEPS, deflated, kept_frames, scene
 
@@ -38,6 +38,7 @@ TITLES = {
     "equilibrium_shape": "Shape and bar tensions in the last frame",
     "tension_plan": "Bar tensions on the netting laid flat",
     "tension_histogram": "How many bars bear how much",
+    "sections": "Closed netting in sections, as built and in the last frame",
     "histories": "Deflection, drag, largest tension and kinetic energy against time",
     "comparison": "Measured and computed positions",
     "waves": "Elevation of the surface, and velocity of the water at the first probe",
@@ -93,6 +94,8 @@ def render(
         accounts=words.account_words(figures),
         energy=words.energy_rows(figures),
         panels=[(p.name, words.panel_rows(result, p)) for p in result.net.panels],
+        part_columns=words.PART_COLUMNS,
+        part_table=words.part_table(figures),
         supports=words.support_rows(result, origin.system),
         comparison=comparison,
         pictures=_pictures(result, origin, comparison),
@@ -139,8 +142,8 @@ def _histories(result: Result, flow: Array | None) -> list[dict[str, Any]]:
     ]
 
 
-def _pictures(result: Result, origin: Origin, comparison: Comparison | None) -> list[dict[str, str]]:
-    """Name, caption and both forms of every figure."""
+def _pictures(result: Result, origin: Origin, comparison: Comparison | None) -> list[dict[str, Any]]:
+    """Name, caption, both forms of every figure, and whether it is made for the whole width of a page."""
     water: dict[str, Any] = {}
     if origin.system is not None and origin.case is not None:
         waves = origin.system.waves
@@ -151,7 +154,12 @@ def _pictures(result: Result, origin: Origin, comparison: Comparison | None) -> 
         }
     made = figures_of(result, comparison=comparison, **water)
     return [
-        {"name": name, "title": TITLES[name], **{kind: _data_uri(figure, kind) for kind in OPTIONS}}
+        {
+            "name": name,
+            "title": TITLES[name],
+            "broad": figure.get_figwidth() > SINGLE_COLUMN,
+            **{kind: _data_uri(figure, kind) for kind in OPTIONS},
+        }
         for name, figure in made.items()
     ]
 

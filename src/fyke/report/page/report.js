@@ -145,11 +145,14 @@
     /* Further away on a narrow page, so that the whole net is in the picture. */
     const away = 2.4 * Math.max(1, 1.1 * byId("space").clientHeight / byId("space").clientWidth);
     const eye = { x: Math.cos(elevation) * Math.cos(azimuth) * away, y: Math.cos(elevation) * Math.sin(azimuth) * away, z: Math.sin(elevation) * away };
+    /* As large as a cube of side 1 would be, but never so long that an end is out of the picture. */
+    const sides = half.map((h) => 2 * h), grow = Math.min(1 / Math.cbrt(sides[0] * sides[1] * sides[2]), 1.85 / Math.max(...sides));
+    const aspectratio = { x: sides[0] * grow, y: sides[1] * grow, z: sides[2] * grow };
     const layout = () => {
       const axis = (name, i) => ({ title: { text: `${name} (m)` }, range: [middle[i] - half[i], middle[i] + half[i]], showbackground: false,
         gridcolor: colour("--line"), linecolor: colour("--soft"), zeroline: false, nticks: 5, showspikes: false });
       return { ...looks(), margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "kept", legend: { x: 0, y: 1, bgcolor: "rgba(0,0,0,0)" },
-        hoverlabel: { align: "left" }, scene: { aspectmode: "data", uirevision: "kept", camera: { eye, projection: { type: "perspective" } },
+        hoverlabel: { align: "left" }, scene: { aspectmode: "manual", aspectratio, uirevision: "kept", camera: { eye, projection: { type: "perspective" } },
           xaxis: axis("x", 0), yaxis: axis("y", 1), zaxis: axis("z", 2) } };
     };
     const show = () => {

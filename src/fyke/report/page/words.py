@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...netting.measures import measure_panel
 from ...netting.net import Panel
 from ...results.audit import forces_on_knots
+from ...results.parts import part_words
 from ...results.water import water_words
 from ...solve.result import Result
 from ...system.system import System
@@ -64,7 +65,10 @@ def key_numbers(figures: dict[str, Any]) -> list[Row]:
         ("Weight in water", number(figures["weight_in_water"], "N"), figures["weight_in_water"]),
         ("Force on the supports", vector(figures["support_reaction"], "N"), None),
         ("Knots and bars", f"{figures['knots']}, {figures['bars']}", figures["knots"]),
-        *((name[:1].upper() + name[1:], text, None) for name, text in water_words(figures)),
+        *(
+            (name[:1].upper() + name[1:], text, None)
+            for name, text in (*part_words(figures), *water_words(figures))
+        ),
     ]
 
 
@@ -158,6 +162,39 @@ def panel_rows(result: Result, panel: Panel) -> list[Row]:
             f"{np.count_nonzero(tension <= 0.0)} of {len(tension)}",
             int(np.count_nonzero(tension <= 0.0)),
         ),
+    ]
+
+
+PART_COLUMNS = (
+    "Part",
+    "Knots, bars",
+    "Drag (N)",
+    "Lift (N)",
+    "Weight in water (N)",
+    "Force on supports (N)",
+    "Largest tension (N)",
+    "Of breaking strength",
+    "Slack bars",
+)
+
+
+def part_table(figures: dict[str, Any]) -> list[list[tuple[str, Any]]]:
+    """Text and exact value of every cell under PART_COLUMNS, a row for each part; empty where parts are not known."""
+    return [_part_row(part) for part in figures.get("parts", ())]
+
+
+def _part_row(part: dict[str, Any]) -> list[tuple[str, Any]]:
+    bar, used = part["max_tension_bar_label"], part["utilisation"]
+    support = math.hypot(*part["support_reaction"])
+    kinds = {"float": "floats", "sinker": "sinkers"}
+    return [
+        (f"{kinds.get(part['kind'], part['kind'])} {part['name']}".rstrip(), None),
+        (f"{part['knots']}, {part['bars']}" if part["bars"] else str(part["knots"]), None),
+        *((number(part[key]), part[key]) for key in ("drag", "lift", "weight_in_water")),
+        (number(support) if part["fixed_knots"] else "–", support),
+        (number(part["max_tension"]) + f", bar {bar}" if bar else "–", part["max_tension"]),
+        ("–" if used is None else number(100.0 * used, "%", 3), used),
+        (str(part["slack_bars"]) if part["bars"] else "–", part["slack_bars"]),
     ]
 
 

@@ -1,0 +1,372 @@
+"""What must hold between the parts of the gear: names, sizes, and what hangs on what."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from math import inf, pi
+from typing import TYPE_CHECKING, Any, cast
+
+from ..netting.hexagon import Hexagon
+from ..netting.lattice import taut_ratios
+from .gear import LARGEST_STRAIN, NettingSpec, PanelSpec, Piece, Sheet
+from .keys import nearest
+from .places import Path
+from .rigging import BodiesSpec, RopeSpec, SinkersSpec
+from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
+from .written import written
+
+if TYPE_CHECKING:
+    from .check import Finding, Parts
+    from .schema import Water
+
+_LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
+_LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
+_KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
+
+
+def reference(path: Path, keys: dict[str, Any], table: str, there: list[str]) -> Iterator[Finding]:
+    """A key that names a table of the file, the twine of a netting for one."""
+    name = keys.get(table)
+    if not isinstance(name, str) or name in there:
+        return
+    allowed = f"a {table} of this file: " + (", ".join(written(one) for one in there) or "there is none yet")
+    near = nearest(name, there)
+    cure = f'did you mean "{near}"?' if near else f"add a table [{table}.{name}] or name one that is there"
+    yield path, written(name), allowed, cure
+
+
+def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
+    """Everything that is wrong between the keys and parts of the gear; water: None where it is wrong itself."""
+    yield from _names(parts)
+    for index, keys in parts.gear_tables():
+        for table in ("netting", "twine"):
+            there = [name for name, _ in parts.items(table)]
+            yield from reference(("gear", index, table), keys, table, there)
+        yield from _held(("gear", index), keys, parts)
+        if keys.get("kind") in ("panel", None):
+            yield from _one_size(("gear", index), keys)
+    for index, piece in parts.pieces.items():
+        path = ("gear", index)
+        if isinstance(piece, RoundSpec):
+            yield from _round(path, piece, parts.nettings.get(piece.netting))
+        yield from _frame(path, piece, parts.nettings.get(piece.netting))
+    sheets = _sheets(parts)
+    for index, rope in parts.ropes.items():
+        yield from _rope(("gear", index), rope, parts, sheets)
+    for index, bodies in parts.bodies.items():
+        yield from _bodies(("gear", index), bodies, water)
+        yield from _hung(("gear", index), bodies, parts, sheets)
+
+
+def _names(parts: Parts) -> Iterator[Finding]:
+    """Every part has a name of its own, and so has the bottom of one."""
+    seen: dict[str, str] = {}
+    for index, keys in parts.gear_tables():
+        name = keys.get("name", str(index + 1))
+        if not isinstance(name, str):
+            continue
+        taken = {name: f"[[gear]] {index + 1}"}
+        if "bottom" in keys:
+            taken[f"{name} bottom"] = f"the bottom of [[gear]] {index + 1}"
+        for one, owner in taken.items():
+            if one in seen:
+                found = f"{written(one)}, which is also the name of {seen[one]}"
+                yield (
+                    ("gear", index, "name"),
+                    found,
+                    "a name of its own for every gear",
+                    "choose another name",
+                )
+            seen.setdefault(one, owner)
+
+
+def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
+    if parts.is_static and keys.get("fixed") == "none":
+        panel = keys.get("kind") == "panel"
+        allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
+        hold = "edges" if panel else "top"
+        cure = f'nothing would hold it: write fixed = "{hold}", or solve with kind = "dynamic"'
+        yield (*path, "fixed"), '"none"', allowed, cure
+
+
+def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
+    asked = {"size", "hanging_ratio"} & keys.keys()
+    if len(asked) != 1:
+        found = "both size and hanging_ratio" if asked else "neither size nor hanging_ratio"
+        cure = (
+            "leave out one of the two" if asked else "add size = [width, height] in m, or hanging_ratio = 0.6"
+        )
+        yield (*path, "size"), found, "one of size and hanging_ratio", cure
+
+
+def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterator[Finding]:
+    """What a shape round an axis must have to close."""
+    if piece.meshes[0] < LEAST_AROUND:
+        found = f"{piece.meshes[0]} around in {piece.called}"
+        allowed = f"at least {LEAST_AROUND} meshes around, and as many as its netting has"
+        yield (*path, "meshes"), found, allowed, "give first the meshes around, then those along the height"
+    if isinstance(piece, CylinderSpec | ConeSpec):
+        yield from _one_round_size(path, piece)
+        yield from _closing_ratio(path, piece, netting)
+    if netting is not None and isinstance(netting.mesh, Hexagon) and netting.mesh.turned:
+        found = f"hexagons with their long bars round {piece.called}"
+        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
+        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    if netting is None or netting.mesh == "diamond":
+        return
+    allowed = "diamond netting, which can be gathered in one knot"
+    allowed += "; square netting has bars round its edge" * (netting.mesh == "square")
+    if isinstance(piece, ConeSpec):
+        cure = f'write mesh = "diamond" in [netting.{piece.netting}], or kind = "frustum"'
+        yield (*path, "kind"), f"{piece.called} of {netting.mesh_name} netting", allowed, cure
+    if piece.floor is not None:
+        cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
+        yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
+
+
+def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
+    if piece.sized:
+        return
+    given = [key for key in ("diameter", "height", "hanging_ratio") if getattr(piece, key) is not None]
+    found = f"{' and '.join(given) or 'nothing of these'} in {piece.called}"
+    missing = " and ".join(f'{key} = "1.5 m"' for key in ("diameter", "height") if key not in given)
+    cure = "leave out hanging_ratio, or the others" if "hanging_ratio" in given else f"add {missing}"
+    yield (*path, "diameter"), found, "diameter and height, or hanging_ratio instead of both", cure
+
+
+def _closing_ratio(
+    path: Path, piece: CylinderSpec | ConeSpec, netting: NettingSpec | None
+) -> Iterator[Finding]:
+    ratio = piece.hanging_ratio
+    if netting is None or ratio is None or not piece.sized:
+        return
+    key = (*path, "hanging_ratio")
+    if isinstance(ratio, tuple) and max(ratio) > 1.0:
+        allowed = "E1 and E2 above 0 and at most 1: netting is never longer than stretched"
+        cure = "0.5 to 0.8 is common for E1; E2 = sqrt(1 - E1^2) just straightens the bars of diamonds"
+        yield key, f"{written(list(ratio))} of {piece.called}", allowed, cure
+    elif isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
+        yield from _pair(path, ratio, netting)
+    elif isinstance(piece, ConeSpec) and piece.rims(netting) is None:
+        around, slant = piece.flat_size(netting)
+        found = f"{written(ratio)}: the netting of {piece.called} is {slant:.4g} m from rim to tip"
+        allowed = f"a slant above the radius of the rim, here {around / pi:.4g} m, so that it closes"
+        yield key, found, allowed, "make E1 smaller, or give it fewer meshes around or more along the height"
+
+
+def _pair(path: Path, ratio: float, netting: NettingSpec) -> Iterator[Finding]:
+    """What is wrong with one hanging ratio where no other one makes every bar just taut."""
+    if isinstance(netting.mesh, Hexagon):
+        long = netting.mesh.long_bar
+        allowed = f"at least {long / (1.0 + long):.4g}, where the slanted bars lie across, or [E1, E2]"
+        yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, 'give both, or write orientation = "T0"'
+        return
+    allowed = "[E1, E2] for square mesh, width and height over the stretched ones"
+    yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, f"write hanging_ratio = [{ratio:g}, {ratio:g}]"
+
+
+def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Finding]:
+    if netting is None or not piece.sized:
+        return
+    ratio = getattr(piece, "hanging_ratio", None)
+    if isinstance(ratio, tuple) and max(ratio) > 1.0 and isinstance(piece, RoundSpec):
+        return  # told already
+    if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
+        if isinstance(piece, PanelSpec):
+            yield from _pair(path, ratio, netting)
+        return
+    for sheet in piece.sheets(netting):
+        if sheet.strain(netting) > LARGEST_STRAIN:
+            yield _overstretched(path, piece, sheet, netting)
+
+
+def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec) -> Finding:
+    strain = f"which strains the bars by {sheet.strain(netting) * 100:.3g} % before anything acts"
+    if isinstance(piece, PanelSpec):
+        key = "size" if piece.given_size else "hanging_ratio"
+        found = f"{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
+        allowed = f"a frame that the net can span: at most {LARGEST_STRAIN * 100:g} % strain"
+        return (*path, key), found, allowed, "check the units of size and bar_length and the number of meshes"
+    low, high = sheet.rims or (0.0, 0.0)
+    what = f"the bottom of {piece.called}" if sheet.sewn else piece.called
+    found = f"{what} spans rims of {low:g} m and {high:g} m and a slant of {sheet.size[1]:.4g} m, {strain}"
+    allowed = f"a shape that the netting can span: at most {LARGEST_STRAIN * 100:g} % strain"
+    key = "bottom" if sheet.sewn else "hanging_ratio" if getattr(piece, "hanging_ratio", None) else "diameter"
+    cure = "check the units of its sizes and of bar_length, and the number of meshes"
+    return (*path, key), found, allowed, cure
+
+
+def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
+    """The sheets of netting of all pieces that are good by themselves, by name."""
+    out = {}
+    for index, piece in parts.pieces.items():
+        netting = parts.nettings.get(piece.netting)
+        for sheet in piece.sheets(netting) if netting else ():
+            out[parts.name_of(index, sheet)] = (sheet, netting)
+    return cast(dict[str, tuple[Sheet, NettingSpec]], out)
+
+
+def _along(
+    path: Path, what: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding | tuple[int, float]]:
+    """Either what is wrong with an edge that is named, or how many knots it has and its length (m)."""
+    name, dot, side = along.rpartition(".")
+    known = parts.netting_names
+    key = (*path, "along")
+    if not dot or name not in known:
+        every = [f"{one}.{edge}" for one, (sheet, _) in sheets.items() for edge in sheet.edges]
+        allowed = "NAME.EDGE of netting in this file, NAME one of " + (
+            ", ".join(written(one) for one in known) or "those of [[gear]], which have no netting yet"
+        )
+        near = nearest(along, every) or (every[0] if every else "")
+        cure = f'did you mean "{near}"?' if near else "add gear with netting that it can hang on"
+        yield key, f"{written(along)} of {what}", allowed, cure
+        return
+    if name not in sheets:
+        return  # wrong itself, and told
+    sheet, netting = sheets[name]
+    if side not in sheet.edges:
+        allowed = f"an edge of '{name}': {' or '.join(sheet.edges)}"
+        if sheet.rims:
+            allowed += "; it closes round and has no other"
+        near = nearest(side, sheet.edges) or sheet.edges[1]
+        yield key, f"{written(along)} of {what}", allowed, f'did you mean "{name}.{near}"?'
+        return
+    yield sheet.edge(side, netting.mesh)
+
+
+def _rope(
+    path: Path, rope: RopeSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    called = f"rope '{parts.name_of(cast(int, path[1]))}'"
+    for one in _along(path, called, rope.along, parts, sheets):
+        if len(one) == 4:
+            yield one
+            continue
+        count, built = one
+        if count == 1:
+            allowed = "an edge of several knots"
+            yield (
+                (*path, "along"),
+                f"{written(rope.along)} of {called}, one knot",
+                allowed,
+                "name another edge",
+            )
+        elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
+            found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
+            found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
+            least = built / (1.0 + LARGEST_STRAIN)
+            allowed = f"at least {least:.4g} m: at most {LARGEST_STRAIN * 100:g} % strain"
+            yield (
+                (*path, "length"),
+                found,
+                allowed,
+                "make it longer, or leave length out for that of the edge",
+            )
+
+
+def _hung(
+    path: Path, bodies: BodiesSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    """Where floats and sinkers are."""
+    called = f"{bodies.kind} '{parts.name_of(cast(int, path[1]))}'"
+    if (bodies.along is None) == (bodies.at is None):
+        found = f"both along and at in {called}" if bodies.at else f"neither along nor at in {called}"
+        cure = "leave one of the two out" if bodies.at else 'add along = "NAME.bottom", or at = ["NAME:0-0"]'
+        yield (*path, "along"), found, "an edge (along) or labels of knots (at)", cure
+        return
+    if bodies.along is not None:
+        for one in _along(path, called, bodies.along, parts, sheets):
+            if len(one) == 4:
+                yield one
+            elif bodies.count is not None and bodies.count > one[0]:
+                found = f"{bodies.count} of {called} along {written(bodies.along)}"
+                allowed = f"at most the {one[0]} knots of this edge"
+                cure = "put fewer and heavier ones there, or leave count out for one at every knot"
+                yield (*path, "count"), found, allowed, cure
+    if bodies.at is None:
+        return
+    if bodies.count is not None:
+        cure = "leave count out: there is one at every label"
+        yield (*path, "count"), f"{bodies.count} beside at in {called}", "count with along only", cure
+    for place, label in enumerate(bodies.at):
+        yield from _knot((*path, "at", place), called, label, parts, sheets)
+        if label in bodies.at[:place]:
+            found = f"{written(label)} of {called}, twice"
+            yield (*path, "at", place), found, "every knot once", "leave it out, or make a heavier one"
+
+
+def _knot(
+    path: Path, what: str, label: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    match = _LABEL.fullmatch(label)
+    name = (match[1] or "") if match else label.partition(":")[0]
+    found = f"{written(label)} of {what}"
+    if match is None or name not in parts.netting_names:
+        near = nearest(name, parts.netting_names)
+        allowed = 'the label of a knot, "NAME:column-row", NAME one of ' + (
+            ", ".join(written(one) for one in parts.netting_names) or "those of [[gear]] with netting"
+        )
+        cure = f'write for example "{near}:0-0"' if near else 'write for example "NAME:0-0"'
+        yield path, found, allowed, cure
+    elif name in sheets:
+        sheet, netting = sheets[name]
+        if not sheet.has(int(match[2]), int(match[3]), netting.mesh):
+            last = sheet.last(netting.mesh)
+            allowed = f"a knot of '{name}': columns 0 to {last[0]}, rows 0 to {last[1]} from below"
+            allowed += "; of diamond netting those whose sum is even" * (netting.mesh == "diamond")
+            allowed += "; of hexagons every other one" * (netting.mesh_name == "hexagonal")
+            allowed += "; its tip is 0-0" * sheet.tip
+            yield path, found, allowed, "choose a knot that is there; knots.csv of a run lists them"
+
+
+def _bodies(path: Path, bodies: BodiesSpec, water: Water | None) -> Iterator[Finding]:
+    """What floats and sinkers are, and whether they float and sink."""
+    force, example, density = _KIND_OF_FORCE[bodies.kind]
+    values = {
+        force: bodies.force,
+        "density": bodies.density,
+        "mass": bodies.mass,
+        "diameter": bodies.diameter,
+    }
+    given = [key for key, value in values.items() if value is not None]
+    if given not in ([force, "density"], ["mass", "diameter"]):
+        found = " and ".join(given) if given else "nothing of these"
+        allowed = f"{force} (N in water) and density of each one, or mass and diameter"
+        cure = f"write {force} = {example} and density = {density}, or mass and diameter"
+        yield (*path, given[0] if given else force), f"{found} in {bodies.kind}", allowed, cure
+        return
+    if water is None:
+        return
+    sinks = isinstance(bodies, SinkersSpec)
+    if bodies.density is not None:
+        key, own = "density", bodies.density
+    else:
+        volume = pi / 6.0 * (bodies.diameter or 0.0) ** 3
+        key, own = "mass", (bodies.mass or 0.0) / volume if volume > 0.0 else inf
+    if (own <= water.density) if sinks else (own >= water.density):
+        found = f"{own:g} kg/m3, which {'does not sink' if sinks else 'does not float'}"
+        allowed = (
+            f"{'above' if sinks else 'below'} the {water.density:g} kg/m3 of the water for {bodies.kind}"
+        )
+        other = "floats" if sinks else "sinkers"
+        cure = f'check the units of {", ".join(given)}, or write kind = "{other}"'
+        yield (*path, key), found, allowed, cure
+    elif bodies.density is not None:
+        yield from _body_of_force((*path, force), bodies, water)
+
+
+def _body_of_force(path: Path, bodies: BodiesSpec, water: Water) -> Iterator[Finding]:
+    if water.gravity == 0.0:
+        found = f"{bodies.force:g} N without gravity"
+        yield path, found, "[water] gravity above 0 for a force in water", "give mass and diameter instead"
+        return
+    try:
+        diameter = bodies.sphere(water.density, water.gravity).diameter
+    except (OverflowError, ZeroDivisionError):
+        diameter = inf
+    if not diameter <= _LARGEST_BODY:
+        found = f"{bodies.force:g} N at {bodies.density:g} kg/m3, a sphere of {diameter:.3g} m"
+        allowed = f"a body of at most {_LARGEST_BODY:g} m"
+        yield path, found, allowed, "check its unit; the density may be too near that of the water"

@@ -1,0 +1,47 @@
+"""Ropes, floats and sinkers of a case on its netting."""
+
+from __future__ import annotations
+
+from typing import cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..case.rigging import BodiesSpec
+from ..case.schema import Case
+from ..netting.net import Net, Panel, Side
+from ..netting.rigging import evenly, with_bodies, with_rope
+
+Indices = NDArray[np.int64]
+
+
+def rigged(net: Net, case: Case) -> Net:
+    """Return the netting of a case with its ropes, then its floats and sinkers, in the order of the file."""
+    twines = case.twines
+    for rope in case.ropes:
+        panel, side = _edge(net, rope.along)
+        net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
+    for bodies in case.bodies:
+        sphere = bodies.sphere(case.water.density, case.water.gravity)
+        kind = bodies.kind.removesuffix("s")
+        net = with_bodies(net, sphere.at(_places(net, bodies), name=bodies.name, kind=kind))
+    return net
+
+
+def _edge(net: Net, along: str) -> tuple[Panel, Side]:
+    """Return the netting and the edge of it that NAME.EDGE says."""
+    name, _, side = along.rpartition(".")
+    return next(panel for panel in net.panels if panel.name == name), cast(Side, side)
+
+
+def _places(net: Net, bodies: BodiesSpec) -> Indices:
+    """Return the knots at which floats or sinkers are."""
+    if bodies.along is None:
+        number = {label: knot for knot, label in enumerate(net.labels)}
+        return np.array([number[label] for label in bodies.at or ()], dtype=np.int64)
+    panel, side = _edge(net, bodies.along)
+    knots = panel.edge(side)
+    if np.all(knots == knots[0]):
+        return knots[:1]  # the tip of a cone
+    closed = panel.closed and side in ("top", "bottom")
+    return evenly(knots, bodies.count or len(knots) - closed, closed=closed)
