@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from ..system.elements import Elements
 from .apart import take
-from .compiled import OPTIONS
+from .compiled import INLINED
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -100,7 +100,7 @@ class Around(NamedTuple):
         return np.ascontiguousarray(rows[:, self.margin : self.margin + self.knot_count].T)
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def own_fields(old, here, water, fields, around):
     """Where the fields of a block's knots lie: array, pitch of its rows, places of x, v and u of the first knot.
 
@@ -110,7 +110,7 @@ def own_fields(old, here, water, fields, around):
     return fields, width, old * width + here, (old + 3) * width + here, WATER * width + water
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def neighbours(slot, old, here, water, fields, around, near):
     """Where the fields of the neighbours of a block's knots lie in one slot, as own_fields says it.
 
@@ -130,7 +130,7 @@ def neighbours(slot, old, here, water, fields, around, near):
     return near, PITCH, 0, 3 * PITCH, 6 * PITCH
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def extent(block, around):
     """First column and number of the knots of a block, rounded up to a STRIDE with knots without anything."""
     low = block * BLOCK

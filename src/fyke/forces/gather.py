@@ -31,7 +31,7 @@ from .around import (
     neighbours,
     own_fields,
 )
-from .compiled import OPTIONS
+from .compiled import INLINED, OPTIONS
 from .drag import bar_water_force
 from .laws import flow_by_bar, varies, vary, vary_knots
 from .tension import law_tension
@@ -74,7 +74,7 @@ def share_laws(rank, team, old, fields, el, around, law):
         laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), old, fields, el, around, law)
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def block_force(block, old, fields, uniform, curves, around, law, work):
     """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
@@ -121,7 +121,7 @@ def block_force(block, old, fields, uniform, curves, around, law, work):
                 )
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def _own_forces(size, own, first, knots, g):
     """Weight and knot drag into rows 0 to 2 of g, speed of the water past the knots into SPEED.
 
@@ -177,7 +177,7 @@ def _flow_past(begin, end, own, others, scale, g):
         keep(g, ALONG * PITCH + i, along)
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def _add_bars(slot, own, others, tensions, resistance, around, g):
     """Add the forces of one slot's bars to rows 0 to 2 of g; those on their far ends into FAR.
 

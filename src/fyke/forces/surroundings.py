@@ -130,6 +130,8 @@ class Surroundings:
         self.screens: Screens | None = None
         self._shelter: Shelter | None = None
         self.left = np.ones((net.knot_count, 1))
+        # Velocity of the current when last asked for: made once where it is the same always and everywhere.
+        self._everywhere: Array | None = None
         viscosity = system.water.kinematic_viscosity
         if self.faces is not None and c.screens is not None:
             self.screens = Screens.of(self.faces, c.screens, system.water.density, viscosity)
@@ -177,8 +179,10 @@ class Surroundings:
 
     def velocity(self, x: Array, time: float) -> Array:
         """Velocity of the current at knots x (n, 3) m, sheltered, waves left out, (n, 3) m/s."""
-        u = self.system.current.velocity(x, time)
-        return u if self._shelter is None else self.left * u
+        current = self.system.current
+        if self._everywhere is None or not (current.steady and current.uniform):
+            self._everywhere = current.velocity(x, time)
+        return self._everywhere if self._shelter is None else self.left * self._everywhere
 
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).

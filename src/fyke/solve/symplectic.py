@@ -33,7 +33,7 @@ from ..forces.around import (
     renew,
     renumbered,
 )
-from ..forces.compiled import OPTIONS
+from ..forces.compiled import INLINED, OPTIONS
 from ..forces.gather import FAR, SPEED, WORK_ROWS, block_force, share_laws
 from ..forces.inertia import block_inverse_masses
 from ..forces.team import LINE, meet, run_team, threads_for
@@ -55,7 +55,7 @@ STEPS_PER_CALL, WORK_PER_CALL = (200, 2000), 50_000_000
 TINY_SQUARE = 1e-300
 
 
-@njit(forceinline=True, **OPTIONS)
+@njit(**INLINED)
 def _kick_and_drift(block, old, new, kick, drift, around, inverse, fields, g):
     """Change velocities of a block by the forces over a time kick (s), then positions over a time drift (s).
 
