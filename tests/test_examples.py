@@ -8,7 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
+
+import fyke
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
@@ -54,3 +57,54 @@ def test_hanging_line_agrees_with_the_exact_curve():
     assert len(lines) == len(exact)
     for speed, *values in lines:
         assert [float(v) for v in values] == pytest.approx(exact[float(speed)], abs=1.5e-3)
+
+
+def solved(name):
+    case = fyke.load_case(EXAMPLES / f"{name}.toml")
+    net = fyke.build_net(case)
+    result = fyke.solve_static(fyke.build_system(net, case))
+    assert result.outcome.ok
+    return net, result
+
+
+def test_diamond_netting_bears_along_its_sides_and_square_netting_does_not():
+    """What is told of Li et al. 2006: diamond netting bears most along the four sides of its frame, least inside.
+
+    A square panel held all round is two families of strings that cross: those through the middle bear most, and each
+    bears much the same all along, for nothing but the drag along a bar acts along it.
+    """
+    net, result = solved("square_and_diamond")
+    tension = result.tension[-1]
+    means = {}
+    for panel in net.panels:
+        bars = panel.bars[:, 0]
+        places = net.positions[net.bars[bars]].mean(axis=1) - net.positions[panel.knots].mean(axis=0)
+        out = np.abs(places[:, 1:]).max(axis=1)  # m from the middle, of 0.5 m
+        own = tension[bars]
+        means[panel.name] = [own[out > 0.4].mean(), own[out < 0.25].mean()]
+        most = np.argsort(-own)[: len(own) // 10]
+        if panel.name == "diamond":
+            assert np.mean(out[most] > 0.4) > 0.5
+    assert means["diamond"][0] > 1.1 * means["diamond"][1]
+    assert means["square"][0] < 0.5 * means["square"][1]
+    square = net.panels[0]
+    grid = square.lattice
+    ends = grid.knots[grid.bars]
+    string = tension[square.bars[(ends[:, :, 0] == 10).all(axis=1), 0]]
+    assert np.ptp(string) < 0.15 * string.max()
+
+
+def test_the_model_cage_keeps_what_it_says():
+    """Weight, stiffness and drag of the real netting by hand: bars of 25.5 mm, twine of 2.42 mm, sinkers of 5.15 N."""
+    case = fyke.load_case(EXAMPLES / "model_cage.toml")
+    net = fyke.build_net(case)
+    (twine,) = net.twines
+    real = np.pi / 4 * 2.42e-3**2
+    assert twine.area / 85.9e-3 == pytest.approx(real / 25.5e-3, rel=5e-3)  # EA and weight per width
+    assert 2.203 * 4.44 / 85.9 == pytest.approx(1.2 * 2.42 / 25.5, rel=1e-3)
+    assert 0.184 * 4.44 / 85.9 == pytest.approx(0.1 * 2.42 / 25.5, rel=3e-3)
+    loland = 0.04 + (-0.04 + 0.194 - 1.24 * 0.194**2 + 13.7 * 0.194**3)
+    assert 1.0 - 0.46 * loland == pytest.approx(0.886, abs=5e-4)
+    bars = 64 * 19 + 64 * 18
+    weight = 9.81 * 140.0 * np.pi / 4 * 4.44e-3**2 * 85.9e-3 * bars + 16 * 5.15
+    assert fyke.build_system(net, case).weight_in_water == pytest.approx(weight, rel=1e-10)

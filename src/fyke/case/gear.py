@@ -82,8 +82,12 @@ class Sheet:
         return self.rims is not None and self.rims[0] == 0.0
 
     def strain(self, netting: NettingSpec) -> float:
-        """Strain of the longest bars as built, negative where all are slack; where it is widest."""
-        width = self.size[0] if self.rims is None else pi * max(self.rims)
+        """Strain of the longest bars as built, from knot to knot where it is widest; negative where all are slack."""
+        width = self.size[0]
+        if self.rims is not None:
+            columns = self.last(netting.mesh)[0] + 1
+            chord = pi if isinstance(netting.mesh, Hexagon) else columns * sin(pi / columns)
+            width = chord * max(self.rims)  # columns of hexagons lie unevenly: the circle is the most
         return max(flat_strain(netting.mesh, self.meshes, netting.bar_length, (width, self.size[1])))
 
     def edge(self, side: Side, mesh: Mesh) -> tuple[int, float]:

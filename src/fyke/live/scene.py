@@ -113,9 +113,7 @@ class Scene:
         self, name: str, points: NDArray[np.float32], colour: NDArray[np.uint8] | str, width: float
     ) -> None:
         colours = np.empty((len(points), 2, 3), dtype=np.uint8)
-        colours[:] = (
-            (255.0 * np.array(rgb(colour))).astype(np.uint8) if isinstance(colour, str) else colour[:, None]
-        )
+        colours[:] = _bytes(rgb(colour)) if isinstance(colour, str) else colour[:, None]
         handle = self._lines.get(name)
         if handle is None:
             self._lines[name] = self.client.scene.add_line_segments(
