@@ -58,10 +58,11 @@ def best_in_turn(works: Mapping[str, Callable[[], object]], repeats: int) -> dic
 
 
 @njit
-def many_forces(count, x, v, u, el, rel, g, out):
+def many_forces(count, state, el, work, laws):
     """Call the force evaluation so many times without going back to Python."""
+    (x, v, u), (rel, g, out) = state, work
     for _ in range(count):
-        total_force(x, v, u, el, rel, g, out)
+        total_force(x, v, u, el, rel, g, out, laws)
 
 
 def in_motion(system: fyke.System, speed: float) -> fyke.State:
@@ -74,8 +75,8 @@ def forces_of(system: fyke.System, start: fyke.State, count: int) -> Callable[[]
     """Return a call of so many force evaluations."""
     x, v = start.position, start.velocity
     u = system.current.velocity(x, 0.0)
-    args = (count, x, v, u, system.elements, *work_arrays(len(x)), np.empty_like(x))
-    return lambda: many_forces(*args)
+    work = (*work_arrays(len(x)), np.empty_like(x))
+    return lambda: many_forces(count, (x, v, u), system.elements, work, system.drag_laws)
 
 
 def force_per_bar(system: fyke.System) -> float:

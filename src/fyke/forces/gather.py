@@ -75,22 +75,23 @@ def share_laws(rank, team, old, fields, el, around, law):
 
 
 @njit(**INLINED)
-def block_force(block, old, fields, uniform, curves, around, law, work):
+def block_force(block, old, fields, uniform, laws, around, law, work):
     """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
-    old: row of x in fields; uniform: the water has the same velocity everywhere; curves: bar_curves and
-    knot_curve of Elements; law: (2, m + 1) as laws_of_bars gives
-    it, used where laws are not linear; work: arrays near (NEAR_ROWS x PITCH,) and g (WORK_ROWS x PITCH,), OFFSET zero.
+    old: row of x in fields; uniform: the water has the same velocity everywhere; laws: DragLaws, or None
+    for constant drag; law: (2, m + 1) as laws_of_bars gives it, used where laws are not linear; work: arrays near
+    (NEAR_ROWS x PITCH,) and g (WORK_ROWS x PITCH,), OFFSET zero.
     """
     near, g = work
     here, size = extent(block, around)
     water = around.margin if uniform else here
     own = own_fields(old, here, water, fields, around)
     _own_forces(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, g)
-    of_bars, of_knots = curves
-    if of_knots.shape[0] > 0:
-        _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, of_knots, g)
-    by_law = varies(of_bars)
+    by_law = False
+    if laws is not None:
+        by_law = varies(laws.bars)
+        if laws.knots.shape[0] > 0:
+            _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, laws.knots, g)
     for slot in range(around.first[block], around.first[block + 1]):
         begin, end = around.begin[slot], around.end[slot]
         row = around.bars_row[slot] * BAR_ROWS
@@ -102,12 +103,13 @@ def block_force(block, old, fields, uniform, curves, around, law, work):
                 g[SLOPE * PITCH + i] = law[0, around.bar[slot, i]]
                 g[OFFSET * PITCH + i] = law[1, around.bar[slot, i]]
         others = neighbours(slot, old, here, water, fields, around, near)
-        if by_law:
-            reference = drags, across, drags, along
-            drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
-            _flow_past(begin, end, own, others, (around.bars, (row + REYNOLDS) * BLOCK), g)
-            vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, of_bars)
-            settle()
+        if laws is not None:
+            if by_law:
+                reference = drags, across, drags, along
+                drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
+                _flow_past(begin, end, own, others, (around.bars, (row + REYNOLDS) * BLOCK), g)
+                vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, laws.bars)
+                settle()
         _add_bars(slot, own, others, (slopes, slope), (drags, across, along), around, g)
         if around.both[slot]:
             shift = around.shift[slot]
