@@ -32,8 +32,11 @@ def test_case_runs(case, tmp_path):
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     summary = json.loads(done.stdout)
-    assert summary["outcome"] == "converged"
+    # A net in waves never comes to rest: its run is over when its time is.
+    assert summary["outcome"] == ("completed" if "waves" in summary else "converged")
     assert all("floats" in warning for warning in summary["warnings"])
+    if "waves" in summary:
+        return
     held = [
         q + (summary["weight_in_water"] if i == 2 else 0.0) for i, q in enumerate(summary["support_reaction"])
     ]

@@ -13,7 +13,8 @@ from fyke.forces.bars import bar_geometry
 from fyke.forces.screen_faces import DENSE, DENSEST, add_screens
 from fyke.forces.screen_laws import in_tables
 from fyke.forces.screens import Screens
-from fyke.forces.surroundings import Surroundings, wet_faces
+from fyke.forces.surroundings import Surroundings
+from fyke.forces.wetness import wet_faces
 from fyke.netting.faces import Faces, faces_of
 from fyke.solve.pattern import Pattern
 from fyke.system.curves import HIGHEST_REYNOLDS, LOWEST_REYNOLDS
@@ -501,7 +502,7 @@ def test_a_standing_face_is_wet_to_the_surface(low, high, part):
     """A rectangle of thin twine from z = low to high: both diagonals are under water by the same part."""
     z = np.array([low, low, high, high])
     out = np.empty(1)
-    wet_faces(z, np.zeros(4), np.arange(4)[None].astype(np.uint32), np.array([1e-6]), out)
+    wet_faces(-z, np.arange(4)[None].astype(np.uint32), np.array([1e-6]), out)
     assert out[0] == pytest.approx(part, abs=1e-5)
 
 

@@ -87,6 +87,37 @@ def test_framed_panels_of_the_hard_list(short, modulus, speed, direction, fixed,
     check(fyke.make_system(net, current=velocity), velocity, 25)
 
 
+@pytest.mark.parametrize("speed", [0.05, 0.1, 0.3])
+@pytest.mark.parametrize("mesh", ["square", "diamond"])
+def test_slack_bars_of_steel(speed, mesh):
+    """The law of their slack is some 1e5 N, the tension of the others some 1e-3 N."""
+    velocity = (speed, 0.0, 0.0)
+    check(fyke.make_system(net_of(0.5, 1e11, "edges", mesh), current=velocity), velocity, 20)
+
+
+@pytest.mark.parametrize("opening", [1.0, 0.7, 0.3])
+def test_straight_bars_that_a_light_knot_lifts(opening):
+    """One diamond mesh on its frame, with neither slack nor strain: T grows from nothing, as in a straight string."""
+    size = 0.2 * np.array([np.sin(opening), np.cos(opening)])
+    law = fyke.TableLaw((0.0, 0.01, 0.05, 0.2), (0.0, 5.0, 60.0, 400.0))
+    net = fyke.panel(
+        fyke.Twine("any", 850.0, 0.01, law),
+        mesh="diamond",
+        meshes=(1, 1),
+        bar_length=0.1,
+        size=tuple(size),
+        normal=(0.0, 0.0, 1.0),
+    )
+    result = fyke.solve_static(fyke.make_system(net))
+    assert result.outcome.ok and result.outcome.iterations <= 15
+    # The knot in the middle bears half of each of its four bars and rises by h: 4 T h / l lifts what floats.
+    lift = 4.0 * 0.5 * 150.0 * 9.81 * np.pi / 4.0 * 0.01**2 * 0.1
+    middle = int(np.argmin(np.linalg.norm(net.positions, axis=1)))
+    height = result.position[-1][middle, 2]
+    pull = 5.0 / 0.01 * (np.hypot(0.1, height) / 0.1 - 1.0)
+    assert 4.0 * pull * height / np.hypot(0.1, height) == pytest.approx(lift, rel=1e-6)
+
+
 @settings(max_examples=20, deadline=None, derandomize=True)
 @given(
     short=st.floats(0.5, 1.0),

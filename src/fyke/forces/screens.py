@@ -20,7 +20,7 @@ class Screens:
     """The faces of a net under one law; made with Screens.of.
 
     wet: (p,) part of every face that is under water, 1 unless someone says otherwise; forces are multiplied by it, and
-    tangents take it for constant, as those of bars do.
+    tangents take it for constant: what it changes is in forces.wetness.
     Everywhere x: (n, 3) m, the knots; rel: (n, 3) m/s, the water against the knots.
     """
 

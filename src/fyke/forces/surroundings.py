@@ -25,53 +25,13 @@ from .laws import coefficients_of_bars, coefficients_of_knots
 from .screens import Screens
 from .shelter import Shelter
 from .total import TINY_LENGTH
+from .wetness import add_face_wetting, add_wetting, wet_faces, wet_parts
 
 Array = NDArray[np.float64]
+Places = NDArray[np.int64]
 
-
-@njit(**OPTIONS)
-def _immersed(depth, radius):
-    """Integral over depth (m) of the part of a round body of this radius (m) that is under water, taken as a ramp."""
-    if depth >= radius:
-        return depth
-    return (depth + radius) ** 2 / (4.0 * radius) if depth > -radius else 0.0
-
-
-@njit(**OPTIONS)
-def _immersed_part(low, high, radius):
-    """Part under water of a round body of this radius whose depth goes from low to high (m)."""
-    if abs(high - low) > 1e-6 * radius:
-        return (_immersed(high, radius) - _immersed(low, radius)) / (high - low)
-    return min(max(0.5 * (low + radius) / radius, 0.0), 1.0)
-
-
-@njit(**OPTIONS)
-def wet_faces(z, elevation, corners, radius, out):
-    """Part under water of every face of netting into out (p,): the mean of its diagonals as if they were twines.
-
-    z, elevation: (n,) m, as in wet_parts; corners: (p, 4) knots; radius: (p,) m, of the twine.
-    """
-    for f in range(out.shape[0]):
-        for first in range(2):
-            a, c = corners[f, first], corners[f, first + 2]
-            part = _immersed_part(elevation[a] - z[a], elevation[c] - z[c], radius[f])
-            out[f] = 0.5 * part if first == 0 else out[f] + 0.5 * part
-
-
-@njit(**OPTIONS)
-def wet_parts(z, elevation, el, bar_radius, knot_radius, bars, knots):
-    """Part under water of every bar into bars (m,) and of every knot, or what hangs there, into knots (n,), spheres.
-
-    z, elevation: (n,) m, heights of the knots and of the surface above them; a bar is the mean along its length.
-    """
-    for i in range(z.shape[0]):
-        depth, r = elevation[i] - z[i], max(knot_radius[i], TINY_LENGTH)
-        part = min(max(0.5 * (depth + r) / r, 0.0), 1.0)
-        # The volume of a spherical cap over that of the sphere.
-        knots[i] = part * part * (3.0 - 2.0 * part)
-    for e in range(bar_radius.shape[0]):
-        a, b = el.knot_a[e], el.knot_b[e]
-        bars[e] = _immersed_part(elevation[a] - z[a], elevation[b] - z[b], bar_radius[e])
+# Span of heights, over the shortest bar, in which the change of a current with height is found.
+SPAN = 1e-5
 
 
 @njit(**OPTIONS)
@@ -126,6 +86,7 @@ class Surroundings:
             np.maximum.at(self._radius[1], bodies.knots, 0.5 * bodies.diameter)
         self._reach = float(max(self._radius[0].max(initial=0.0), self._radius[1].max(initial=0.0)))
         self._by_angle = not c.bar_mass.constant
+        self._depth: Array | None = None
         self.faces = system.faces
         self.screens: Screens | None = None
         self._shelter: Shelter | None = None
@@ -133,6 +94,7 @@ class Surroundings:
         # Velocity of the current when last asked for: made once where it is the same always and everywhere.
         self._everywhere: Array | None = None
         viscosity = system.water.kinematic_viscosity
+        self._twine_radius = np.empty(0) if self.faces is None else 0.5 * self.faces.diameter
         if self.faces is not None and c.screens is not None:
             self.screens = Screens.of(self.faces, c.screens, system.water.density, viscosity)
         if self.faces is not None and (c.wake or c.twines):
@@ -184,6 +146,43 @@ class Surroundings:
             self._everywhere = current.velocity(x, time)
         return self._everywhere if self._shelter is None else self.left * self._everywhere
 
+    def shear(self, x: Array, time: float) -> Array | None:
+        """Change of the current with height at knots x (n, 3) m, sheltered, (n, 3) 1/s; None where it has none."""
+        if self.system.current.uniform:
+            return None
+        half = np.array([0.0, 0.0, 0.5 * SPAN * float(self.system.elements.rest_length.min(initial=1.0))])
+        change = self.velocity(x + half, time) - self.velocity(x - half, time)
+        return np.asarray(change / (2.0 * half[2]))
+
+    def add_wetting(
+        self,
+        x: Array,
+        rel: Array,
+        el: Elements,
+        t: Array,
+        length: Array,
+        places: tuple[Places, Places, Places],
+        groups: tuple[Places, Places],
+        *,
+        symmetric: bool,
+        data: Array,
+    ) -> None:
+        """Add to -dF/dx what changes with the wet parts of the net as the last `at` saw it; arguments as of `load`.
+
+        places, groups: start, stride, diagonal and groups of solve.pattern.Pattern, to which the data of the matrix
+        belong; symmetric: add the symmetric part alone.
+        """
+        if self._depth is None:
+            return
+        displaced, g = self.system.displaced, self.system.water.gravity
+        sizes = *self._radius, g * displaced.bar, g * displaced.knot
+        add_wetting(self._depth, rel, el, sizes, (t, length), symmetric, places, data)
+        if self.screens is not None:
+            force, arrays = self.screens.forces(x, rel), self.screens.arrays
+            add_face_wetting(
+                self._depth, force, arrays, self._twine_radius, self.screens.wet, symmetric, groups, data
+            )
+
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Elements, and velocity of the water at the knots (n, 3) m/s, for positions x and velocities v (n, 3).
 
@@ -200,7 +199,7 @@ class Surroundings:
         if waves is not None:
             u = u + waves.velocity
         el = self._added_by_angle(x, u - v) if self._by_angle else system.elements
-        displaced = system.displaced
+        displaced, self._depth = system.displaced, None
         if self.screens is not None:
             self.screens.wet.fill(1.0)
         if waves is not None or self.near_surface(x, 0.0):
@@ -224,14 +223,14 @@ class Surroundings:
     def _wetted(self, el: Elements, x: Array, elevation: Array) -> tuple[Elements, Displaced]:
         """Drag, added mass and buoyancy of what is under water, and the water that it displaces."""
         system, whole = self.system, self.system.displaced
-        if float((x[:, 2] - elevation).max(initial=-np.inf)) < -self._reach:
+        depth = elevation - x[:, 2]
+        if float(depth.min(initial=np.inf)) > self._reach:
             return el, whole
+        self._depth = depth
         bars, knots = np.empty(len(el.rest_length)), np.empty(len(x))
-        z = np.ascontiguousarray(x[:, 2])
-        wet_parts(z, elevation, el, *self._radius, bars, knots)
-        if self.screens is not None and self.faces is not None:
-            corners = self.screens.arrays.corners
-            wet_faces(z, elevation, corners, 0.5 * self.faces.diameter, self.screens.wet)
+        wet_parts(depth, el, *self._radius, bars, knots)
+        if self.screens is not None:
+            wet_faces(depth, self.screens.arrays.corners, self._twine_radius, self.screens.wet)
         displaced = Displaced(bars * whole.bar, knots * whole.knot)
         lost = whole.knot - displaced.knot
         added = system.coefficients.added_mass_knot * lost

@@ -8,10 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free
+from ..forces.shear import add_shear
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import State, System
 from .linear import Factorizer, Pattern, Solve, factorizer
+from .smooth import assemble_step
 
 Array = NDArray[np.float64]
 
@@ -120,9 +122,28 @@ class Equilibrium:
         """Put the tangent together for the present stiffness blocks."""
         b, p = self.b, self.pattern
         assemble(b.block, self.u, self.el, b.t, p.start, p.stride, b.data)
-        screens = self.surroundings.screens
-        if screens is not None:
-            screens.assemble(self.x, self.u, 1.0, 0.0, p.groups, symmetric=False, data=b.data)
+        water = self.surroundings
+        if water.screens is not None:
+            water.screens.assemble(self.x, self.u, 1.0, 0.0, p.groups, symmetric=False, data=b.data)
+        shear = water.shear(self.x + self.origin, self.time)
+        if shear is not None:
+            add_shear(self._drag(), shear, p.free, p.indptr, b.data)
+        places = p.start, p.stride, p.diagonal
+        water.add_wetting(
+            self.x, self.u, self.el, b.t, b.length, places, p.groups, symmetric=False, data=b.data
+        )
+
+    def _drag(self) -> Array:
+        """Return -dF/dv, the tangent of the water's load by the knots' velocities, as data of the pattern."""
+        b, p, m, n = self.b, self.pattern, len(self.el.knot_a), len(self.x)
+        data, none = np.zeros(len(p.indices)), np.zeros(m)
+        assemble_step(
+            self.u, self.el, b.t, b.length, none, none, 0.0, 1.0, 0.0, np.zeros((n, 6)), False,
+            p.start, p.stride, p.diagonal, data,
+        )  # fmt: skip
+        if self.surroundings.screens is not None:
+            self.surroundings.screens.assemble(self.x, self.u, 0.0, 1.0, p.groups, symmetric=False, data=data)
+        return data
 
     def move(self, solve: Solve) -> None:
         """Motion of the free knots for the present right side."""

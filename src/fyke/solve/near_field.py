@@ -19,8 +19,9 @@ LARGEST_ROTATION = 0.5
 # Least centring where rotations cut the step below CUT.
 LEAST_CENTRING_CUT = 0.1
 CUT = 0.3
-# Least tension over slack and slack over tension: below the rounding of the other, a step to the edge has no length.
-LEAST = float(np.finfo(float).eps)
+# Least slack over tension, whose rounding is in it: slack that this eats leaves no length to a step. Least tension over
+# slack, which is large in stiff bars: above zero.
+LEAST_SLACK, LEAST_TENSION = float(np.finfo(float).eps), float(np.finfo(float).eps) ** 2
 
 
 class Near:
@@ -71,8 +72,8 @@ class Near:
         return step
 
     def _keep_off_the_edge(self) -> None:
-        np.maximum(self.T, LEAST * self.w, out=self.T)
-        np.maximum(self.w, LEAST * self.T, out=self.w)
+        np.maximum(self.T, LEAST_TENSION * self.w, out=self.T)
+        np.maximum(self.w, LEAST_SLACK * self.T, out=self.w)
 
     def _direction(self, solve: Solve, mu: float, r: Array) -> float:
         s, b = self.s, self.s.b

@@ -261,11 +261,18 @@ def _left(s: Equilibrium) -> str:
 
 
 def _out_of_iterations(s: Equilibrium) -> Verdict:
+    jumps = (
+        ""
+        if s.system.current.uniform
+        else (
+            "; where the current jumps, as from layer to layer, a knot may find no rest: take a table of depths"
+        )
+    )
     return (
         "iteration_limit",
         f"{s.iterations} iterations were not enough: {_left(s)}",
         "raise max_iterations; a net held by few knots may turn or flap for ever in this current: a dynamic case shows "
-        "it, more held knots or another start may end it",
+        f"it, more held knots or another start may end it{jumps}",
     )
 
 

@@ -160,6 +160,11 @@ class StepNewton:
             screens.assemble(
                 self.x, self.rel, 1.0, c1 / c0, p.groups, symmetric=self.symmetric, data=self.data
             )
+        places = p.start, p.stride, p.diagonal
+        self.surroundings.add_wetting(
+            self.x, self.rel, self.el, self.t, self.length, places, p.groups,
+            symmetric=self.symmetric, data=self.data,
+        )  # fmt: skip
         self.factorizations += 1
         return self.linear.factor(self.data)
 

@@ -78,7 +78,7 @@ def _faces(net: Net, fine: Faces) -> Faces:
     """Faces of the coarse net; the bars and twines of it are not what makes their solidity."""
     faces = faces_of(net)
     ones = np.ones(faces.count)
-    return replace(faces, solidity=fine.solidity[0] * ones, diameter=fine.diameter[0] * ones)
+    return replace(faces, solidity=fine.solidity.mean() * ones, diameter=fine.diameter[0] * ones)
 
 
 def _longer(net: Net, fine: Grid, many: Array, which: int) -> float:
@@ -103,5 +103,6 @@ def _net(net: Net, fine: Grid, coarse: Grid, knots: Indices, bars: Indices, elem
         knot_diameter=net.knot_diameter[knots],
         knot_density=net.knot_density[knots],
         load=net.load[knots],
+        bodies=(),
         panels=(replace(panel, meshes=coarse.meshes, knots=np.arange(n), bars=np.arange(m)[:, None]),),
     )
