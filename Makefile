@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-peers bench bench-million bench-peers bench-screens bench-see bench-waves gallery format clean
+.PHONY: demo test test-peers bench bench-million bench-peers bench-see bench-water gallery format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -28,14 +28,11 @@ bench-million: $(VENV)/.installed-test
 bench-peers: $(VENV)/.installed-peers
 	@$(BIN)/python benchmarks/peers.py
 
-bench-screens: $(VENV)/.installed-test
-	@$(BIN)/python benchmarks/screens.py
-
 bench-see: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/see.py
 
-bench-waves: $(VENV)/.installed-test
-	@$(BIN)/python benchmarks/waves.py
+bench-water: $(VENV)/.installed-test
+	@$(BIN)/python benchmarks/water.py
 
 gallery: $(VENV)/.installed-test
 	@$(BIN)/python docs/gallery.py

@@ -12,7 +12,7 @@ import time
 from math import log
 from pathlib import Path
 
-from run import machine
+from timing import machine
 
 HERE = Path(__file__).parent
 SIZES = (100, 200, 400, 707)
@@ -21,7 +21,7 @@ TOLERANCE = 1e-6  # N, true residual
 ONE = """
 import json, resource, sys, time
 sys.path.insert(0, {here!r})
-from run import panel_system
+from timing import panel_system
 import fyke
 from fyke.solve import nested
 large, nested.LARGE = nested.LARGE, 400

@@ -21,7 +21,7 @@ from pathlib import Path
 from peer_motion import DURATION
 from peer_panel import answers, make_panel, relax
 from peer_tools import LARGE, MOTION, STATICS, TOOLS, Tool
-from run import machine
+from timing import machine
 
 HERE = Path(__file__).parent
 # Seconds that one try may take, importing and compiling included.

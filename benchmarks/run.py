@@ -6,55 +6,25 @@ ratios, not the seconds.
 
 from __future__ import annotations
 
-import json
 import os
-import platform
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from c_floor import floor_seconds
-from numba import njit
+from timing import Row, best, force_per_bar, leap_seconds, machine, panel_system, table_of
+from water import water
 
 import fyke
-from fyke.forces.total import total_force, work_arrays
 from fyke.solve.auto import Work
 from fyke.solve.linear import Pattern, factorizer
 
 HERE = Path(__file__).parent
 EXAMPLE = HERE.parent / "examples" / "panel.toml"
-Row = tuple[str, str, str]
-
-
-def panel_system(meshes: int, speed: float = 0.5) -> fyke.System:
-    """Diamond panel of the example with so many meshes each way, on a frame 10 % short."""
-    twine = fyke.Twine("main", 1140.0, 1.5e-3, fyke.LinearLaw(1e9))
-    side = 0.9 * meshes * 0.03 * np.sqrt(2.0)
-    net = fyke.panel(
-        twine,
-        mesh="diamond",
-        meshes=(meshes, meshes),
-        bar_length=0.03,
-        size=(side, side),
-        knot_diameter=3.5e-3,
-    )
-    return fyke.make_system(net, current=(speed, 0.0, 0.0))
-
-
-def best(work: Callable[[], object], repeats: int = 7) -> float:
-    """Shortest wall time (s) of several calls, after one to warm up."""
-    work()
-    times = []
-    for _ in range(repeats):
-        began = time.perf_counter()
-        work()
-        times.append(time.perf_counter() - began)
-    return min(times)
 
 
 class TimedFactorizer:
@@ -98,7 +68,7 @@ def statics() -> list[Row]:
 LARGE = """
 import resource, sys
 sys.path.insert(0, {here!r})
-from run import panel_system
+from timing import panel_system
 import fyke
 system = panel_system(100)
 outcome = fyke.solve_static(system).outcome
@@ -118,34 +88,6 @@ def large_static() -> list[Row]:
         ("static 100x100: whole solve", f"{float(out[1]):.2f} s", ""),
         ("static 100x100: peak memory of the process", f"{float(out[2]):.0f} MB", "< 1000 MB"),
     ]
-
-
-@njit
-def many_forces(count, x, v, u, el, rel, g, out):
-    """Call the force evaluation so many times without going back to Python."""
-    for _ in range(count):
-        total_force(x, v, u, el, rel, g, out)
-
-
-def force_per_bar(system: fyke.System) -> float:
-    """Seconds of one force evaluation over the number of bars."""
-    x = system.net.positions + np.random.default_rng(0).normal(scale=1e-3, size=system.net.positions.shape)
-    v = np.zeros_like(x)
-    u = system.current.velocity(x, 0.0)
-    rel, g = work_arrays(len(x))
-    out = np.empty_like(x)
-    count = max(1, 200_000 // system.net.bar_count)
-    args = (count, x, v, u, system.elements, rel, g, out)
-    return best(lambda: many_forces(*args), 60) / count / system.net.bar_count
-
-
-def leap_seconds(system: fyke.System, start: fyke.State, threads: int, steps: int) -> float:
-    """Seconds of one leapfrog step, without the conversions at the ends of a call."""
-    run = fyke.Symplectic().start(system, start)
-    run.threads = threads
-    assert run.advance(steps * run.step) == "ok"
-    h = 0.7 * run.step
-    return best(lambda: run.leap(h, steps, True)) / (steps + 1)
 
 
 def threads() -> list[Row]:
@@ -336,35 +278,24 @@ def command_line() -> list[Row]:
     ]
 
 
-def machine() -> str:
-    """What this ran on."""
-    model = platform.processor() or platform.machine()
-    info = Path("/proc/cpuinfo")
-    if info.exists():
-        names = [
-            line.split(":", 1)[1].strip() for line in info.read_text().splitlines() if "model name" in line
-        ]
-        model = names[0] if names else model
-    versions = json.loads(subprocess.run(
-        [sys.executable, "-c", "import numpy, scipy, numba, json; print(json.dumps([numpy.__version__, "
-         "scipy.__version__, numba.__version__]))"], check=True, capture_output=True, text=True).stdout)  # fmt: skip
-    return (
-        f"{model}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}, "
-        f"numpy {versions[0]}, scipy {versions[1]}, numba {versions[2]}, fyke {fyke.__version__}"
-    )
-
-
 def main() -> None:
     """Measure, print and write."""
     rows: list[Row] = []
-    for part in (statics, large_static, explicit, threads, steppers, large_motion, choice, command_line):
+    for part in (
+        statics,
+        large_static,
+        explicit,
+        threads,
+        steppers,
+        large_motion,
+        choice,
+        water,
+        command_line,
+    ):
         rows += part()
         for row in rows[-1:]:
             print(f".. {part.__name__} done: {row[0]} = {row[1]}", flush=True)
-    width = max(len(row[0]) for row in rows)
-    lines = [f"| {'what'.ljust(width)} | measured | goal |", f"|{'-' * (width + 2)}|---|---|"]
-    lines += [f"| {what.ljust(width)} | {value} | {goal} |" for what, value, goal in rows]
-    table = "\n".join(lines)
+    table = table_of(rows)
     print(table)
     text = f"# Benchmarks\n\nMade by `make bench` on {time.strftime('%Y-%m-%d')}: {machine()}.\n\n{table}\n"
     (HERE / "RESULTS.md").write_text(text)

@@ -41,30 +41,31 @@ def flows(count=200, seed=1):
         yield w * 10.0 ** rng.uniform(-3.0, 0.5), t / np.linalg.norm(t)
 
 
-def law_at(w, t, el):
+def law_at(w, t, system):
     """c_n, c_t and their slopes of a bar along t in water of this velocity past it."""
-    if el.plain:
+    el, laws = system.elements, system.drag_laws
+    if laws is None:
         return float(el.normal_drag[0]), float(el.tangential_drag[0]), 0.0, 0.0, 0.0, 0.0
     out = np.empty((6, 1))
-    coefficients_of_bars(LENGTH * np.array([[0.0, 0.0, 0.0], t]), np.array([w, w]), el, out)
+    coefficients_of_bars(LENGTH * np.array([[0.0, 0.0, 0.0], t]), np.array([w, w]), el, laws, out)
     return tuple(out[:, 0].tolist())
 
 
 def one_bar(law):
     twine = fyke.Twine("n", density=1140.0, diameter=DIAMETER, law=fyke.LinearLaw(1e9))
     net = fyke.line(twine, np.array([[0.0, 0.0, 0.0], [0.0, 0.0, -LENGTH]]), LENGTH, fixed=(0,))
-    return fyke.make_system(net, coefficients=fyke.Coefficients(bars=law)).elements
+    return fyke.make_system(net, coefficients=fyke.Coefficients(bars=law))
 
 
 @pytest.mark.parametrize("name", BARS)
 def test_force_of_a_bar_is_that_of_its_law(name):
-    law, el = BARS[name], one_bar(BARS[name])
+    law, system = BARS[name], one_bar(BARS[name])
     # Corners of a user's table and the joints of published pieces are a little rounder than they are said.
     rounder = {"table": 1e-4, "takagi": 1e-6, "white": 1e-11, "sucker-brauer": 1e-11, "ns-cheng": 1e-11}
     exact = isinstance(BARS[name], bars.ConstantBar | bars.Hoerner | AngleTable)
     allowed = 1e-13 if exact else rounder.get(name, 1e-7)
     for w, t in flows():
-        cn, ct, *_ = law_at(w, t, el)
+        cn, ct, *_ = law_at(w, t, system)
         force = 2.0 * np.array(bar_water_force(*w, *t, cn * LENGTH, ct * LENGTH))
         speed, along = np.linalg.norm(w), w @ t
         n = w - along * t
@@ -77,16 +78,16 @@ def test_force_of_a_bar_is_that_of_its_law(name):
 
 @pytest.mark.parametrize("name", BARS)
 def test_tangents_of_a_bar_against_differences(name):
-    el = one_bar(BARS[name])
+    system = one_bar(BARS[name])
 
     def force(d, w):
         length = np.linalg.norm(d)
-        cn, ct, *_ = law_at(w, d / length, el)
+        cn, ct, *_ = law_at(w, d / length, system)
         return np.array(bar_water_force(*w, *(d / length), cn * length, ct * length))
 
     for w, t in flows(100):
         turn, press = np.empty((3, 3)), np.empty((3, 3))
-        bar_water_tangents(w, t, law_at(w, t, el), LENGTH, turn, press)
+        bar_water_tangents(w, t, law_at(w, t, system), LENGTH, turn, press)
         d, h, hw = LENGTH * t, 1e-6 * LENGTH, 1e-6 * np.linalg.norm(w)
         by_place = np.column_stack([(force(d + h * e, w) - force(d - h * e, w)) / (2 * h) for e in np.eye(3)])
         by_speed = np.column_stack(
@@ -102,7 +103,7 @@ def test_drag_of_a_knot_is_that_of_its_law(name, nylon):
     net = fyke.panel(
         nylon, mesh="square", meshes=(1, 1), bar_length=LENGTH, size=(LENGTH, LENGTH), knot_diameter=KNOT
     )
-    el = fyke.make_system(net, coefficients=fyke.Coefficients(knots=law, bars=bars.White())).elements
+    system = fyke.make_system(net, coefficients=fyke.Coefficients(knots=law, bars=bars.White()))
     scale = 0.5 * 1000.0 * np.pi / 4.0 * KNOT**2
     for speed in np.geomspace(1e-3, 3.0, 60):
         h = 1e-6 * speed**2
@@ -110,7 +111,7 @@ def test_drag_of_a_knot_is_that_of_its_law(name, nylon):
         rel = np.zeros((4, 3))
         rel[:3, 1] = speeds
         drags, slopes = np.empty((2, 4))
-        coefficients_of_knots(rel, el, drags, slopes)
+        coefficients_of_knots(rel, system.elements, system.drag_laws, drags, slopes)
         (drag, below, above, _), slope = drags, slopes[0]
         assert drag == pytest.approx(scale * float(law.coefficients(speed * KNOT / VISCOSITY)), rel=1e-5)
         assert slope * h == pytest.approx(0.5 * (above - below), abs=1e-9 * drag)
@@ -135,9 +136,7 @@ def two_thicknesses(nylon, meshes=(5, 4)):
 def at_this_moment(system, x, v):
     """The system with the present coefficients as constants."""
     el, _ = Surroundings(system).at(x, v, 0.0)
-    constant = fyke.make_system(system.net).elements
-    taken = {name: getattr(constant, name) for name in ("plain", "bar_curves", "knot_curve")}
-    return replace(system, coefficients=fyke.Coefficients(), elements=el._replace(**taken))
+    return replace(system, coefficients=fyke.Coefficients(), elements=el, drag_laws=None)
 
 
 @pytest.mark.parametrize("meshes", [(1, 1), (2, 3), (12, 13)])
@@ -151,7 +150,9 @@ def test_explicit_kernels_have_the_coefficients_of_the_others(name, meshes, nylo
     forces, leaps = [], []
     for one in (system, frozen):
         out = np.full_like(x, np.nan)
-        total_force(x, v, one.current.velocity(x, 0.0), one.elements, *work_arrays(len(x)), out)
+        total_force(
+            x, v, one.current.velocity(x, 0.0), one.elements, *work_arrays(len(x)), out, one.drag_laws
+        )
         forces.append(out)
         run = fyke.Symplectic(max_step=1e-10).start(one, fyke.State(0.0, x, v))
         assert run.advance(1e-10) == "ok"
@@ -168,18 +169,19 @@ def test_still_water_and_a_lost_net(name, nylon):
     """No force but weight where nothing moves; NaN stays NaN; speeds beyond all tables are finite."""
     net, x, _ = two_thicknesses(nylon)
     law = fyke.Coefficients(bars=BARS[name], knots=knots.CliftGauvin())
-    el = fyke.make_system(net, coefficients=law).elements._replace(stiffness=np.zeros(net.bar_count))
+    system = fyke.make_system(net, coefficients=law)
+    el, laws = system.elements._replace(stiffness=np.zeros(net.bar_count)), system.drag_laws
     found, still = np.empty_like(x), np.zeros_like(x)
-    total_force(x, still, still, el, *work_arrays(len(x)), found)
+    total_force(x, still, still, el, *work_arrays(len(x)), found, laws)
     assert np.array_equal(found, el.weight)
-    total_force(x, still, np.full_like(x, np.nan), el, *work_arrays(len(x)), found)
+    total_force(x, still, np.full_like(x, np.nan), el, *work_arrays(len(x)), found, laws)
     assert np.isnan(found).all()
     for speed in (1e-200, 1e-12, 1e8):
-        total_force(x, still, np.full_like(x, speed), el, *work_arrays(len(x)), found)
+        total_force(x, still, np.full_like(x, speed), el, *work_arrays(len(x)), found, laws)
         assert np.isfinite(found).all()
         bars_too, knots_too = np.empty((6, net.bar_count)), np.empty((2, len(x)))
-        coefficients_of_bars(x, np.full_like(x, speed), el, bars_too)
-        coefficients_of_knots(np.full_like(x, speed), el, *knots_too)
+        coefficients_of_bars(x, np.full_like(x, speed), el, laws, bars_too)
+        coefficients_of_knots(np.full_like(x, speed), el, laws, *knots_too)
         assert np.isfinite(bars_too).all() and np.isfinite(knots_too).all()
 
 
@@ -188,17 +190,11 @@ def test_curves_meet_their_law_at_any_speed_and_are_held_beyond(law):
     reference, curve = knot_curve(law)
     re = np.geomspace(0.1 * LOWEST_REYNOLDS, 10.0 * HIGHEST_REYNOLDS, 40_001)
     re = re[abs(re / LEAST_REYNOLDS - 1.0) > 1e-2]  # a corner, where laws themselves begin to be held
-    el = fyke.make_system(
-        fyke.line(
-            fyke.Twine("n", density=1140.0, diameter=DIAMETER, law=fyke.LinearLaw(1e9)),
-            np.array([[0.0, 0.0, 0.0], [0.0, 0.0, -LENGTH]]),
-            LENGTH,
-        )
-    ).elements
-    ones = np.ones_like(re)
-    el = el._replace(knot_curve=curve, knot_drag=reference * ones, knot_reynolds=ones, knot_share=ones)
+    system, ones, none = one_bar(bars.White()), np.ones_like(re), np.zeros(0)
+    laws = system.drag_laws._replace(knots=curve, knot_reynolds=ones, knot_share=ones, bar_reynolds=none)
     drag, slope = np.empty((2, len(re)))
-    coefficients_of_knots(re[:, None] * [0.6, 0.0, 0.8], el, drag, slope)
+    el = system.elements._replace(knot_drag=reference * ones)
+    coefficients_of_knots(re[:, None] * [0.6, 0.0, 0.8], el, laws, drag, slope)
     within = np.clip(re, LOWEST_REYNOLDS, HIGHEST_REYNOLDS)
     assert drag == pytest.approx(law.coefficients(within), rel=2e-6)
     held = (re < LOWEST_REYNOLDS) | (re > HIGHEST_REYNOLDS)

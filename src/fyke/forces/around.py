@@ -15,9 +15,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..system.elements import Elements
+from ..system.elements import DragLaws, Elements
 from .apart import take
-from .compiled import OPTIONS
+from .compiled import INLINED
 
 Array = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -100,7 +100,7 @@ class Around(NamedTuple):
         return np.ascontiguousarray(rows[:, self.margin : self.margin + self.knot_count].T)
 
 
-@njit(**OPTIONS)
+@njit(**INLINED)
 def own_fields(old, here, water, fields, around):
     """Where the fields of a block's knots lie: array, pitch of its rows, places of x, v and u of the first knot.
 
@@ -110,7 +110,7 @@ def own_fields(old, here, water, fields, around):
     return fields, width, old * width + here, (old + 3) * width + here, WATER * width + water
 
 
-@njit(**OPTIONS)
+@njit(**INLINED)
 def neighbours(slot, old, here, water, fields, around, near):
     """Where the fields of the neighbours of a block's knots lie in one slot, as own_fields says it.
 
@@ -130,7 +130,7 @@ def neighbours(slot, old, here, water, fields, around, near):
     return near, PITCH, 0, 3 * PITCH, 6 * PITCH
 
 
-@njit(**OPTIONS)
+@njit(**INLINED)
 def extent(block, around):
     """First column and number of the knots of a block, rounded up to a STRIDE with knots without anything."""
     low = block * BLOCK
@@ -199,13 +199,14 @@ def renumbered(el: Elements, order: Ints) -> Elements:
         knot_mass=el.knot_mass[order],
         weight=el.weight[order],
         free=el.free[order],
-        knot_reynolds=el.knot_reynolds[order],
-        knot_share=el.knot_share[order],
     )
 
 
-def bars_around(el: Elements, *, renewable: bool = False) -> Around:
-    """Lay out the bars around the knots of a net; renewable: their drag and added mass are to be renewed later on."""
+def bars_around(el: Elements, laws: DragLaws | None = None, *, renewable: bool = False) -> Around:
+    """Lay out the bars around the knots of a net under laws of drag, or None.
+
+    renewable: drag and added mass are to be renewed later on.
+    """
     n, m = len(el.free), len(el.knot_a)
     a, b = el.knot_a.astype(np.int64), el.knot_b.astype(np.int64)
     knot, away, bar = np.concatenate([a, b]), np.concatenate([b - a, a - b]), np.tile(np.arange(m), 2)
@@ -216,12 +217,12 @@ def bars_around(el: Elements, *, renewable: bool = False) -> Around:
     blocks = -(-n // BLOCK)
     start = np.searchsorted(knot // BLOCK, np.arange(blocks + 1))
     margin = int(np.abs(away).max(initial=0)) + BLOCK
-    slots = _SlotTable(el, margin, renewable)
+    slots = _SlotTable(el, laws, margin, renewable=renewable)
     for block in range(blocks):
         s = slice(start[block], start[block + 1])
         low = block * BLOCK
         slots.add_block(low, min(BLOCK, n - low), _Ends(knot[s] - low, away[s], bar[s], twin[s]))
-    own, own_row = _knot_rows(el, blocks)
+    own, own_row = _knot_rows(el, laws, blocks)
     return Around(
         knot_count=n,
         margin=margin,
@@ -243,7 +244,7 @@ def bars_around(el: Elements, *, renewable: bool = False) -> Around:
     )
 
 
-def renew(around: Around, el: Elements) -> Around:
+def renew(around: Around, el: Elements, laws: DragLaws | None) -> Around:
     """Return what bars_around laid out to be renewed with the drag, mass and weight of present elements."""
     rows = around.bars.reshape(-1, BAR_ROWS, BLOCK)
     for row, values in (
@@ -252,14 +253,15 @@ def renew(around: Around, el: Elements) -> Around:
         (ADDED, el.bar_added_mass),
     ):
         rows[:, row] = np.append(values, 0.0)[around.bar]
-    knots, knots_row = _knot_rows(el, around.blocks)
+    knots, knots_row = _knot_rows(el, laws, around.blocks)
     return around._replace(knots=knots, knots_row=knots_row)
 
 
 class _SlotTable:
     """The slots of the blocks so far, as in Around."""
 
-    def __init__(self, el: Elements, margin: int, renewable: bool) -> None:
+    def __init__(self, el: Elements, laws: DragLaws | None, margin: int, *, renewable: bool) -> None:
+        none = np.zeros_like(el.rest_length)
         self.properties = np.stack(
             (
                 el.rest_length,
@@ -268,7 +270,7 @@ class _SlotTable:
                 el.tangential_drag,
                 el.damping_time,
                 el.bar_added_mass,
-                el.bar_reynolds,
+                none if laws is None else laws.bar_reynolds,
             )
         )
         self.look_up_bars, self.margin = renewable or not el.linear, margin
@@ -330,14 +332,16 @@ def _slots(ends: _Ends, size: int) -> Iterator[tuple[Ints, int, bool]]:
         yield rest[rank == slot], SCATTERED, False
 
 
-def _knot_rows(el: Elements, blocks: int) -> tuple[Array, Ints]:
+def _knot_rows(el: Elements, laws: DragLaws | None, blocks: int) -> tuple[Array, Ints]:
     """Arrays knots and knots_row of Around."""
     area = el.knot_drag.copy()
     for end in (el.knot_a, el.knot_b):
         np.add.at(area, end, el.normal_drag * el.rest_length)
     own = np.zeros((KNOT_ROWS, blocks * BLOCK))
-    ours = el.knot_drag, area, el.knot_mass, el.free, el.knot_reynolds, el.knot_share
-    own[:, : len(el.free)] = (*el.weight.T, *ours)
+    n = len(el.free)
+    own[:KNOT_REYNOLDS, :n] = (*el.weight.T, el.knot_drag, area, el.knot_mass, el.free)
+    if laws is not None:
+        own[KNOT_REYNOLDS, :n], own[KNOT_SHARE, :n] = laws.knot_reynolds, laws.knot_share
     shared = _Shared()
     row = [shared.keep(own[:, k * BLOCK : (k + 1) * BLOCK].copy()) for k in range(blocks)]
     return np.array(shared.kept).reshape(-1), np.array(row, dtype=np.int64)

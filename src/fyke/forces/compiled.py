@@ -14,6 +14,9 @@ OPTIONS: dict[str, Any] = {
     # Kernels touch no Python object: other threads go on meanwhile.
     "nogil": True,
 }
+# The same for steps of the innermost loops over blocks: a call that stays one hands all arrays of Elements or Around
+# over by value, which costs as much as the forces of some 40 bars.
+INLINED: dict[str, Any] = {**OPTIONS, "forceinline": True}
 # What of the options goes down to functions within a kernel.
 WITHIN: dict[str, Any] = {name: OPTIONS[name] for name in ("fastmath", "error_model")}
 

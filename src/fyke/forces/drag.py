@@ -42,7 +42,6 @@ def bar_water_tangents(w, t, law, length, turn, press):
     n = (n0, n1, n2)
     g = bar_water_force(w[0], w[1], w[2], t[0], t[1], t[2], cn, ct)
     speed = abs(s)
-    turn_n, turn_t = (cn_s - 2.0 * s * cn_q) * size, (ct_s - 2.0 * s * ct_q) * speed * s
     # (|n| I + n n^T/|n|) t = |n| t because n is normal to t.
     for p in range(3):
         row0 = row1 = row2 = 0.0
@@ -55,10 +54,13 @@ def bar_water_tangents(w, t, law, length, turn, press):
             row1 += dg * ((1.0 if q == 1 else 0.0) - t[q] * t[1])
             row2 += dg * ((1.0 if q == 2 else 0.0) - t[q] * t[2])
             drag = cn * (size * (identity - tt) + nn * inverse) + 2.0 * ct * speed * tt
-            drag += size * n[p] * (2.0 * cn_q * n[q] + cn_s * t[q])
-            drag += speed * s * t[p] * (2.0 * ct_q * n[q] + ct_s * t[q])
             press[p, q] = length * drag
-        along = turn_n * n[p] + turn_t * t[p]
-        turn[p, 0] = g[p] * t[0] + row0 + along * n0
-        turn[p, 1] = g[p] * t[1] + row1 + along * n1
-        turn[p, 2] = g[p] * t[2] + row2 + along * n2
+        turn[p, 0], turn[p, 1], turn[p, 2] = g[p] * t[0] + row0, g[p] * t[1] + row1, g[p] * t[2] + row2
+    if cn_q == 0.0 and cn_s == 0.0 and ct_q == 0.0 and ct_s == 0.0:
+        return
+    turn_n, turn_t = (cn_s - 2.0 * s * cn_q) * size, (ct_s - 2.0 * s * ct_q) * speed * s
+    for q in range(3):
+        by_n, by_t = size * (2.0 * cn_q * n[q] + cn_s * t[q]), speed * s * (2.0 * ct_q * n[q] + ct_s * t[q])
+        for p in range(3):
+            turn[p, q] += (turn_n * n[p] + turn_t * t[p]) * n[q]
+            press[p, q] += length * (by_n * n[p] + by_t * t[p])

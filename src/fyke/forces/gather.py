@@ -31,7 +31,7 @@ from .around import (
     neighbours,
     own_fields,
 )
-from .compiled import OPTIONS
+from .compiled import INLINED, OPTIONS
 from .drag import bar_water_force
 from .laws import flow_by_bar, varies, vary, vary_knots
 from .tension import law_tension
@@ -74,21 +74,24 @@ def share_laws(rank, team, old, fields, el, around, law):
         laws_of_bars(block * BLOCK, min(bars, (block + 1) * BLOCK), old, fields, el, around, law)
 
 
-@njit(**OPTIONS)
-def block_force(block, old, fields, uniform, el, around, law, work):
+@njit(**INLINED)
+def block_force(block, old, fields, uniform, laws, around, law, work):
     """Force on every knot of a block into rows 0 to 2 of g N, speed of the water past the knots into SPEED m/s.
 
-    old: row of x in fields; uniform: the water has the same velocity everywhere; law: (2, m + 1) as laws_of_bars gives
-    it, used where laws are not linear; work: arrays near (NEAR_ROWS x PITCH,) and g (WORK_ROWS x PITCH,), OFFSET zero.
+    old: row of x in fields; uniform: the water has the same velocity everywhere; laws: DragLaws, or None
+    for constant drag; law: (2, m + 1) as laws_of_bars gives it, used where laws are not linear; work: arrays near
+    (NEAR_ROWS x PITCH,) and g (WORK_ROWS x PITCH,), OFFSET zero.
     """
     near, g = work
     here, size = extent(block, around)
     water = around.margin if uniform else here
     own = own_fields(old, here, water, fields, around)
     _own_forces(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, g)
-    if el.knot_curve.shape[0] > 0:
-        _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, el.knot_curve, g)
-    by_law = varies(el.bar_curves)
+    by_law = False
+    if laws is not None:
+        by_law = varies(laws.bars)
+        if laws.knots.shape[0] > 0:
+            _by_knot_laws(size, own, around.knots_row[block] * KNOT_ROWS * BLOCK, around.knots, laws.knots, g)
     for slot in range(around.first[block], around.first[block + 1]):
         begin, end = around.begin[slot], around.end[slot]
         row = around.bars_row[slot] * BAR_ROWS
@@ -100,12 +103,13 @@ def block_force(block, old, fields, uniform, el, around, law, work):
                 g[SLOPE * PITCH + i] = law[0, around.bar[slot, i]]
                 g[OFFSET * PITCH + i] = law[1, around.bar[slot, i]]
         others = neighbours(slot, old, here, water, fields, around, near)
-        if by_law:
-            reference = drags, across, drags, along
-            drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
-            _flow_past(begin, end, own, others, (around.bars, (row + REYNOLDS) * BLOCK), g)
-            vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, el.bar_curves)
-            settle()
+        if laws is not None:
+            if by_law:
+                reference = drags, across, drags, along
+                drags, across, along = g, ACROSS * PITCH, ALONG * PITCH
+                _flow_past(begin, end, own, others, (around.bars, (row + REYNOLDS) * BLOCK), g)
+                vary(begin, end, g, (across, along), LAW_WORK * PITCH, reference, laws.bars)
+                settle()
         _add_bars(slot, own, others, (slopes, slope), (drags, across, along), around, g)
         if around.both[slot]:
             shift = around.shift[slot]
@@ -119,7 +123,7 @@ def block_force(block, old, fields, uniform, el, around, law, work):
                 )
 
 
-@njit(**OPTIONS)
+@njit(**INLINED)
 def _own_forces(size, own, first, knots, g):
     """Weight and knot drag into rows 0 to 2 of g, speed of the water past the knots into SPEED.
 
@@ -175,7 +179,7 @@ def _flow_past(begin, end, own, others, scale, g):
         keep(g, ALONG * PITCH + i, along)
 
 
-@njit(**OPTIONS)
+@njit(**INLINED)
 def _add_bars(slot, own, others, tensions, resistance, around, g):
     """Add the forces of one slot's bars to rows 0 to 2 of g; those on their far ends into FAR.
 

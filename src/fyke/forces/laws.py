@@ -126,15 +126,15 @@ def vary_knots(begin, end, g, square, work, curve):
 
 
 @njit(**OPTIONS)
-def coefficients_of_bars(x, rel, el, out):
+def coefficients_of_bars(x, rel, el, laws, out):
     """Present c_n and c_t (kg/m2) of the bars and their slopes into out (6, m).
 
     Slopes of c_n by the square of the speed across and by the speed along, then of c_t. x: (n, 3) m; rel: (n, 3) m/s,
     the water against the knots.
     """
-    curves = el.bar_curves
+    curves, reynolds = laws.bars, laws.bar_reynolds
     for e in range(out.shape[1]):
-        a, b, half = el.knot_a[e], el.knot_b[e], 0.5 * el.bar_reynolds[e]
+        a, b, half = el.knot_a[e], el.knot_b[e], 0.5 * reynolds[e]
         out[0, e], out[1, e] = flow_by_bar(
             x[b, 0] - x[a, 0],
             x[b, 1] - x[a, 1],
@@ -150,7 +150,7 @@ def coefficients_of_bars(x, rel, el, out):
     else:
         _split_laws(el.normal_drag, el.tangential_drag, curves.across, curves.viscous, curves.along, out)
     for e in range(out.shape[1]):
-        r = el.bar_reynolds[e]
+        r = reynolds[e]
         out[2, e] *= r * r
         out[3, e] *= r
         out[4, e] *= r * r
@@ -191,11 +191,11 @@ def _split_laws(c, k, across, viscous, along, out):
 
 
 @njit(**OPTIONS)
-def coefficients_of_knots(rel, el, drag, slope):
+def coefficients_of_knots(rel, el, laws, drag, slope):
     """Present drag (kg/m) of the knots over |w| w into drag (n,), its slope by the speed squared into slope (n,)."""
-    curve = el.knot_curve
+    curve, share = laws.knots, laws.knot_share
     for i in range(rel.shape[0]):
-        square, r2 = rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2, el.knot_reynolds[i] ** 2
+        square, r2 = rel[i, 0] ** 2 + rel[i, 1] ** 2 + rel[i, 2] ** 2, laws.knot_reynolds[i] ** 2
         value, steep = cubic(curve, square * r2) if curve.shape[0] > 0 else (1.0, 0.0)
-        drag[i] = el.knot_drag[i] * (1.0 + el.knot_share[i] * (value - 1.0))
-        slope[i] = el.knot_drag[i] * el.knot_share[i] * steep * r2
+        drag[i] = el.knot_drag[i] * (1.0 + share[i] * (value - 1.0))
+        slope[i] = el.knot_drag[i] * share[i] * steep * r2

@@ -17,7 +17,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..system.elements import Elements
+from ..system.elements import DragLaws, Elements
 from ..system.system import Displaced, System
 from .bars import water_load
 from .compiled import OPTIONS
@@ -58,11 +58,11 @@ def add_fluid_inertia(x, acceleration, el, bar_displaced, knot_inertia, out):
             out[i, 2] += whole * r - along * dz
 
 
-def _by_law(x: Array, rel: Array, el: Elements) -> Elements:
+def _by_law(x: Array, rel: Array, el: Elements, laws: DragLaws) -> Elements:
     """Coefficients of drag for water of this velocity rel (n, 3) m/s past the knots."""
     bars, knots = np.empty((6, len(el.rest_length))), np.empty((2, len(x)))
-    coefficients_of_bars(x, rel, el, bars)
-    coefficients_of_knots(rel, el, knots[0], knots[1])
+    coefficients_of_bars(x, rel, el, laws, bars)
+    coefficients_of_knots(rel, el, laws, knots[0], knots[1])
     return el._replace(
         normal_drag=bars[0],
         tangential_drag=bars[1],
@@ -91,6 +91,8 @@ class Surroundings:
         self.screens: Screens | None = None
         self._shelter: Shelter | None = None
         self.left = np.ones((net.knot_count, 1))
+        # Velocity of the current when last asked for: made once where it is the same always and everywhere.
+        self._everywhere: Array | None = None
         viscosity = system.water.kinematic_viscosity
         self._twine_radius = np.empty(0) if self.faces is None else 0.5 * self.faces.diameter
         if self.faces is not None and c.screens is not None:
@@ -107,7 +109,7 @@ class Surroundings:
     @property
     def constant(self) -> bool:
         """Whether they stay the same at any speed, too."""
-        return self.steady and self.system.elements.plain
+        return self.steady and self.system.drag_laws is None
 
     def near_surface(self, x: Array, rise: float) -> bool:
         """Whether knots at x (n, 3) m that rise by this much (m) come out of still water."""
@@ -139,8 +141,10 @@ class Surroundings:
 
     def velocity(self, x: Array, time: float) -> Array:
         """Velocity of the current at knots x (n, 3) m, sheltered, waves left out, (n, 3) m/s."""
-        u = self.system.current.velocity(x, time)
-        return u if self._shelter is None else self.left * u
+        current = self.system.current
+        if self._everywhere is None or not (current.steady and current.uniform):
+            self._everywhere = current.velocity(x, time)
+        return self._everywhere if self._shelter is None else self.left * self._everywhere
 
     def shear(self, x: Array, time: float) -> Array | None:
         """Change of the current with height at knots x (n, 3) m, sheltered, (n, 3) 1/s; None where it has none."""
@@ -185,7 +189,8 @@ class Surroundings:
         The elements hold the coefficients of drag of this moment, with their slopes.
         """
         el, u = self.given(x, v, time)
-        return (el if el.plain else _by_law(x, u - v, el)), u
+        laws = self.system.drag_laws
+        return (el if laws is None else _by_law(x, u - v, el, laws)), u
 
     def given(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Return what `at` does with the laws of drag not yet asked: for kernels that ask them at every step."""

@@ -28,11 +28,13 @@ TINY_LENGTH = 1e-300
 
 
 @njit(**OPTIONS)
-def knot_forces(v, u, el, rel, g, out):
+def knot_forces(v, u, el, rel, g, out, laws):
     """Weight and knot drag into out (n, 3) N; velocity of the water relative to the knot into rel (n, 3) m/s."""
-    by_law = el.knot_curve.shape[0] > 0
-    if by_law:
-        _knot_laws(v, u, el, g, out)
+    by_law = False
+    if laws is not None:
+        by_law = laws.knots.shape[0] > 0
+        if by_law:
+            _knot_laws(v, u, laws, g, out)
     for i in range(v.shape[0]):
         wx = u[i, 0] - v[i, 0]
         wy = u[i, 1] - v[i, 1]
@@ -47,29 +49,28 @@ def knot_forces(v, u, el, rel, g, out):
 
 
 @njit(**OPTIONS)
-def _knot_laws(v, u, el, g, out):
+def _knot_laws(v, u, laws, g, out):
     """Drag of the knots over that of Elements into the first column of out."""
     for start in range(0, v.shape[0], BLOCK):
         size = min(BLOCK, v.shape[0] - start)
         for i in range(size):
             k = start + i
             square = (u[k, 0] - v[k, 0]) ** 2 + (u[k, 1] - v[k, 1]) ** 2 + (u[k, 2] - v[k, 2]) ** 2
-            g[ACROSS * PITCH + i] = square * el.knot_reynolds[k] ** 2
-        vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, el.knot_curve)
+            g[ACROSS * PITCH + i] = square * laws.knot_reynolds[k] ** 2
+        vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, laws.knots)
         for i in range(size):
-            out[start + i, 0] = 1.0 + el.knot_share[start + i] * (g[ACROSS * PITCH + i] - 1.0)
+            out[start + i, 0] = 1.0 + laws.knot_share[start + i] * (g[ACROSS * PITCH + i] - 1.0)
 
 
 @njit(**OPTIONS)
-def total_force(x, v, u, el, rel, g, out):
+def total_force(x, v, u, el, rel, g, out, laws=None):
     """Force on every knot into out (n, 3) N.
 
     x, v, u: (n, 3) position m, velocity m/s, velocity of the water at the knots m/s; el: Elements; rel: (n, 3) and
-    g: (WORK_ROWS x PITCH,) work arrays.
+    g: (WORK_ROWS x PITCH,) work arrays; laws: DragLaws, or None where Elements say it all.
     """
-    knot_forces(v, u, el, rel, g, out)
+    knot_forces(v, u, el, rel, g, out, laws)
     m = el.knot_a.shape[0]
-    by_law = varies(el.bar_curves)
     for start in range(0, m, BLOCK):
         size = min(BLOCK, m - start)
         for i in range(size):
@@ -86,11 +87,12 @@ def total_force(x, v, u, el, rel, g, out):
                     g[(RATE + q) * PITCH + i] = v[b, q] - v[a, q]
         if not el.linear:
             _law_of_block(start, size, el, g)
-        if by_law:
-            _drag_of_block(start, size, el, g)
-            _forces_of_block(start, size, el, (g, ACROSS * PITCH, g, ALONG * PITCH), g)
-        else:
-            _forces_of_block(start, size, el, (el.normal_drag, start, el.tangential_drag, start), g)
+        drags = el.normal_drag, start, el.tangential_drag, start
+        if laws is not None:
+            if varies(laws.bars):
+                _drag_of_block(start, size, el, laws, g)
+                drags = g, ACROSS * PITCH, g, ALONG * PITCH
+        _forces_of_block(start, size, el, drags, g)
         for i in range(size):
             a = el.knot_a[start + i]
             b = el.knot_b[start + i]
@@ -154,10 +156,10 @@ def _law_of_block(start, size, el, g):
 
 
 @njit(**OPTIONS)
-def _drag_of_block(start, size, el, g):
+def _drag_of_block(start, size, el, laws, g):
     """Coefficients c_n and c_t (kg/m2) by their laws into ACROSS and ALONG."""
     for i in range(size):
-        r = el.bar_reynolds[start + i]
+        r = laws.bar_reynolds[start + i]
         g[ACROSS * PITCH + i], g[ALONG * PITCH + i] = flow_by_bar(
             g[i],
             g[PITCH + i],
@@ -167,7 +169,7 @@ def _drag_of_block(start, size, el, g):
             r * g[5 * PITCH + i],
         )
     reference = el.normal_drag, start, el.tangential_drag, start
-    vary(0, size, g, (ACROSS * PITCH, ALONG * PITCH), LAW_WORK * PITCH, reference, el.bar_curves)
+    vary(0, size, g, (ACROSS * PITCH, ALONG * PITCH), LAW_WORK * PITCH, reference, laws.bars)
 
 
 def work_arrays(knots: int) -> tuple[np.ndarray, np.ndarray]:

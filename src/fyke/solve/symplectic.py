@@ -33,7 +33,7 @@ from ..forces.around import (
     renew,
     renumbered,
 )
-from ..forces.compiled import OPTIONS
+from ..forces.compiled import INLINED, OPTIONS
 from ..forces.gather import FAR, SPEED, WORK_ROWS, block_force, share_laws
 from ..forces.inertia import block_inverse_masses
 from ..forces.team import LINE, meet, run_team, threads_for
@@ -55,7 +55,7 @@ STEPS_PER_CALL, WORK_PER_CALL = (200, 2000), 50_000_000
 TINY_SQUARE = 1e-300
 
 
-@njit(**OPTIONS)
+@njit(**INLINED)
 def _kick_and_drift(block, old, new, kick, drift, around, inverse, fields, g):
     """Change velocities of a block by the forces over a time kick (s), then positions over a time drift (s).
 
@@ -86,12 +86,12 @@ def _kick_and_drift(block, old, new, kick, drift, around, inverse, fields, g):
 
 
 @njit(**OPTIONS)
-def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse, rates):
+def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse, rates, laws):
     """Take so many steps of h (s) as one of a team; x and v at the same time before and after.
 
     fields: as forces.around lays them out; x begins in row 0 and ends in row 0 after an odd number of steps, else in
     row HERE_ROWS; uniform: the water has the same velocity everywhere; law: (2, m + 1); inverse: flat
-    (blocks, 6, BLOCK); rates: (2, team x LINE).
+    (blocks, 6, BLOCK); rates: (2, team x LINE); laws: DragLaws, or None for constant drag.
     """
     blocks = around.first.shape[0] - 1
     first, last = blocks * rank // team, blocks * (rank + 1) // team
@@ -110,7 +110,7 @@ def leap(rank, team, signal, fields, h, steps, uniform, el, around, law, inverse
         for block in range(first, last):
             if renew:
                 fastest = max(fastest, block_inverse_masses(block, old, fields, around, near, g, inverse))
-            block_force(block, old, fields, uniform, el, around, law, (near, g))
+            block_force(block, old, fields, uniform, laws, around, law, (near, g))
             _kick_and_drift(block, old, new, kick, h if step < steps else 0.0, around, inverse, fields, g)
         rates[step & 1, rank * LINE] = fastest
         settle()
@@ -154,7 +154,8 @@ class SymplecticRun:
         self.water = HeldWater(system, state)
         self._elements = el = renumbered(system.elements, self._order)
         self._renewable = not self.water.rests(state)
-        self.around = around = bars_around(el, renewable=self._renewable)
+        self._laws = system.drag_laws and system.drag_laws.of(np.arange(len(el.stiffness)), self._order)
+        self.around = around = bars_around(el, self._laws, renewable=self._renewable)
         self.threads = threads_for(system.net.bar_count)
         self.steps_per_call = int(np.clip(WORK_PER_CALL // max(system.net.bar_count, 1), *STEPS_PER_CALL))
         self._law = np.zeros((2, 1 if el.linear else system.net.bar_count + 1))
@@ -176,8 +177,9 @@ class SymplecticRun:
         if self._renewable or not self.water.rests(old):
             self._elements = renumbered(present, self._order)
             if not self._renewable:
-                self.around, self._renewable = bars_around(self._elements, renewable=True), True
-            self.around = renew(self.around, self._elements)
+                self.around = bars_around(self._elements, self._laws, renewable=True)
+                self._renewable = True
+            self.around = renew(self.around, self._elements, self._laws)
         wanted = int(np.ceil(left / self.step * (1.0 - 1e-12)))
         steps = min(wanted, self.steps_per_call)
         h = left / wanted
@@ -206,7 +208,7 @@ class SymplecticRun:
     def leap(self, h: float, steps: int, uniform: bool) -> None:
         """Take so many steps of h (s) from the fields as they stand; uniform: the same water velocity everywhere."""
         rates = np.zeros((2, self.threads * LINE))
-        arrays = (self._elements, self.around, self._law, self._inverse, rates)
+        arrays = (self._elements, self.around, self._law, self._inverse, rates, self._laws)
         run_team(self.threads, leap, self._fields, h, steps, uniform, *arrays)
 
     def memory(self) -> Memory:

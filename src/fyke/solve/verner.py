@@ -54,9 +54,9 @@ LEAST_STEP = 1e-13
 
 
 @njit(**OPTIONS)
-def _accelerate(x, v, u, el, rel, g, force, inverse, out):
+def _accelerate(x, v, u, el, laws, rel, g, force, inverse, out):
     """Acceleration of every knot into out (n, 3) m/s2."""
-    total_force(x, v, u, el, rel, g, force)
+    total_force(x, v, u, el, rel, g, force, laws)
     mass_matrices(x, el, inverse)
     invert_masses(inverse, el.free)
     for i in range(x.shape[0]):
@@ -79,7 +79,7 @@ def _combine(y, h, weights, k, count, out):
 
 
 @njit(**OPTIONS)
-def _step(x, v, h, u, el, work, kx, kv, table, weights, error, first):
+def _step(x, v, h, u, el, laws, work, kx, kv, table, weights, error, first):
     """One trial step: new x and v, and the error estimate of both, into work; first: the first stage is still good."""
     rel, g, force, inverse, xs, vs, ex, ev = work
     flat_x, flat_v = x.ravel(), v.ravel()
@@ -87,7 +87,7 @@ def _step(x, v, h, u, el, work, kx, kv, table, weights, error, first):
     for s in range(1 if first else 0, kx.shape[0]):
         _combine(flat_x, h, table[s], kx, s, fx)
         _combine(flat_v, h, table[s], kv, s, fv)
-        _accelerate(xs, vs, u, el, rel, g, force, inverse, kv[s].reshape(x.shape))
+        _accelerate(xs, vs, u, el, laws, rel, g, force, inverse, kv[s].reshape(x.shape))
         for q in range(flat_x.shape[0]):
             kx[s, q] = fv[q]
     fex[:] = 0.0
@@ -112,10 +112,11 @@ def _largest(a):
 
 
 @njit(**OPTIONS)
-def advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tolerance):
+def advance(x, v, clock, limit, u, el, laws, work, stages, table, weights, error, tolerance):
     """Adaptive steps until clock[1] or for so many steps.
 
-    clock: time, end, step, largest step (s), written back; tolerance: rtol, atol, length (m), speed (m/s).
+    clock: time, end, step, largest step (s), written back; laws: DragLaws, or None for constant drag; tolerance: rtol,
+    atol, length (m), speed (m/s).
     Returns accepted steps, rejected steps, force evaluations and 0 when well, 1 for NaN, 2 for a step too small.
     """
     kx, kv = stages
@@ -131,7 +132,7 @@ def advance(x, v, clock, limit, u, el, work, stages, table, weights, error, tole
             h = 0.5 * left
         if h < LEAST_STEP * max(clock[0], 1.0):
             return accepted, rejected, evaluations, 2
-        _step(x, v, h, u, el, work, kx, kv, table, weights, error, first)
+        _step(x, v, h, u, el, laws, work, kx, kv, table, weights, error, first)
         evaluations += kx.shape[0] - (1 if first else 0)
         speed = max(tolerance[3], _largest(v))
         err = max(
@@ -247,6 +248,7 @@ class VernerRun:
             STEPS_PER_CALL,
             flow,
             present,
+            self.system.drag_laws,
             self._work,
             self._stages,
             _A,

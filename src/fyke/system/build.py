@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +20,7 @@ from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
-from .elements import Elements
+from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
 from .rigging import rigged
 from .system import Displaced, System
@@ -104,6 +103,7 @@ def make_system(
     linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
     knot_mass = mass + c.added_mass_knot * w.density * knot_volume
     damping = _retardation(net, ringing(net, stiffness, knot_mass))
+    drag, drag_laws = _drag(net, w, c)
     elements = Elements(
         knot_a=np.ascontiguousarray(net.bars[:, 0], dtype=np.uint32),
         knot_b=np.ascontiguousarray(net.bars[:, 1], dtype=np.uint32),
@@ -119,7 +119,7 @@ def make_system(
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
-        **_drag(net, w, c),
+        **drag,
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
     return System(
@@ -130,6 +130,7 @@ def make_system(
         water=w,
         coefficients=c,
         displaced=Displaced(0.5 * w.density * volume, w.density * knot_volume),
+        drag_laws=drag_laws,
         waves=waves,
         surface=surface or waves is not None,
         faces=faces_of(net) if c.screens or c.wake or c.twines else None,
@@ -137,30 +138,34 @@ def make_system(
     )
 
 
-def _drag(net: Net, w: Water, c: Coefficients) -> dict[str, Any]:
-    """Fields of Elements that say how the water drags."""
+def _drag(net: Net, w: Water, c: Coefficients) -> tuple[dict[str, Array], DragLaws | None]:
+    """Fields of Elements that say how the water drags, and the laws that change them."""
     scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
             scale[panel.bars] = 0.0
             disc[panel.knots] = 0.0
-    across, along, curves = bar_curves(c.bars)
-    reference, curve = knot_curve(c.knots)
+    across, along, bars = bar_curves(c.bars)
+    reference, knots = knot_curve(c.knots)
     own = disc * reference
-    drag = own + 0.5 * w.density * net.at_knots("drag_area")
-    return {
-        "plain": curves is CONSTANT_BARS and curve is NONE,
+    whole = own + 0.5 * w.density * net.at_knots("drag_area")
+    fields = {
         "normal_drag": scale * across,
         "tangential_drag": scale * along,
-        "knot_drag": drag,
-        "bar_reynolds": net.bar_diameter / w.kinematic_viscosity,
-        "bar_curves": curves,
-        "knot_reynolds": net.knot_diameter / w.kinematic_viscosity,
-        "knot_share": np.divide(own, drag, out=np.zeros_like(drag), where=drag > 0.0),
-        "knot_curve": curve,
+        "knot_drag": whole,
         "drag_slopes": np.zeros((4, 0)),
         "knot_slopes": np.zeros(0),
     }
+    if bars is CONSTANT_BARS and knots is NONE:
+        return fields, None
+    laws = DragLaws(
+        bar_reynolds=net.bar_diameter / w.kinematic_viscosity,
+        bars=bars,
+        knot_reynolds=net.knot_diameter / w.kinematic_viscosity,
+        knots=knots,
+        knot_share=np.divide(own, whole, out=np.zeros_like(whole), where=whole > 0.0),
+    )
+    return fields, laws
 
 
 def ringing(net: Net, stiffness: Array, knot_mass: Array) -> Array:

@@ -11,7 +11,7 @@ from ..netting.faces import Faces
 from ..netting.net import Net
 from ..water.current import Current
 from ..water.waves import Waves
-from .elements import Elements
+from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
 
 Array = NDArray[np.float64]
@@ -43,10 +43,10 @@ class Displaced:
 class System:
     """A net in water, frozen: the net, the water around it and the arrays of the kernels.
 
-    weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; surface: what rises above the
-    surface is dry, else water is everywhere; faces: the meshes of its netting where screens or shelter ask for them,
-    else None; sources: one line for each law, with what it says and where it comes
-    from; case_text: the case file behind it, "" when made in Python.
+    weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; drag_laws: None where all
+    coefficients of drag are constant; surface: what rises above the surface is dry, else water is everywhere; faces:
+    the meshes of its netting where screens or shelter ask for them, else None; sources: one line for each law, with
+    what it says and where it comes from; case_text: the case file behind it, "" when made in Python.
     """
 
     net: Net
@@ -56,6 +56,7 @@ class System:
     water: Water
     coefficients: Coefficients
     displaced: Displaced
+    drag_laws: DragLaws | None = None
     waves: Waves | None = None
     surface: bool = False
     faces: Faces | None = None
