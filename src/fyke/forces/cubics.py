@@ -68,15 +68,19 @@ def find(begin, end, g, square, work):
 
 
 @njit(**OPTIONS)
-def read(begin, end, g, work, curve, out):
-    """Put values of a curve at the places that find found into g from out + begin on."""
+def read(begin, end, g, work, curve, factor, out):
+    """Put values of a curve at the places that find found, times factors, into g from out + begin on.
+
+    factor: an array and a place in it, less begin.
+    """
+    factors, at = factor
     fetch_all(begin, end, g, work, curve)
     first = work + FOUR * PITCH
     for i in range(begin, end):
         t = kept(g, work + PART * PITCH + i)
         a, b = kept(g, first + i), kept(g, first + PITCH + i)
         c, d = kept(g, first + 2 * PITCH + i), kept(g, first + 3 * PITCH + i)
-        keep(g, out + i, a + t * (b + t * (c + t * d)))
+        keep(g, out + i, take(factors, at + i) * (a + t * (b + t * (c + t * d))))
 
 
 @njit(**OPTIONS)

@@ -149,10 +149,11 @@ def _by_knot_laws(size, own, first, knots, curve, g):
     for i in range(size):
         re = take(knots, first + KNOT_REYNOLDS * BLOCK + i) * summed(g, SPEED * PITCH + i)
         keep(g, ACROSS * PITCH + i, re * re)
-    vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, curve)
+    share = first + KNOT_SHARE * BLOCK
+    vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, (knots, share), curve)
     for i in range(size):
         c = take(knots, first + KNOT_DRAG * BLOCK + i) * summed(g, SPEED * PITCH + i)
-        c *= take(knots, first + KNOT_SHARE * BLOCK + i) * (kept(g, ACROSS * PITCH + i) - 1.0)
+        c *= kept(g, ACROSS * PITCH + i) - take(knots, share + i)
         for q in range(3):
             w = take(fields, u + q * width + i) - take(fields, v + q * width + i)
             put(g, q * PITCH + i, summed(g, q * PITCH + i) + c * w)

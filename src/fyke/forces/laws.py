@@ -85,9 +85,7 @@ def vary(begin, end, g, flow, work, reference, curves):
         return
     find(begin, end, g, across, work)
     if curves.across.shape[0] > 0:
-        read(begin, end, g, work, curves.across, across)
-        for i in range(begin, end):
-            keep(g, across + i, take(c, c_at + i) * kept(g, across + i))
+        read(begin, end, g, work, curves.across, (c, c_at), across)
     else:
         for i in range(begin, end):
             keep(g, across + i, take(c, c_at + i))
@@ -102,27 +100,27 @@ def _vary_along(begin, end, g, along, work, reference, curves):
         for i in range(begin, end):
             keep(g, along + i, take(k, k_at + i))
         return
+    if curves.viscous.shape[0] == 0:
+        read(begin, end, g, work, curves.along, (c, c_at), along)
+        return
     found = work + READ_ROWS * PITCH
-    if curves.viscous.shape[0] > 0:
-        read(begin, end, g, work, curves.viscous, found)
-        for i in range(begin, end):
-            keep(g, along + i, kept(g, found + i) / max(abs(kept(g, along + i)), STILL))
-    else:
-        for i in range(begin, end):
-            keep(g, along + i, 0.0)
+    read(begin, end, g, work, curves.viscous, (c, c_at), found)
+    for i in range(begin, end):
+        keep(g, along + i, kept(g, found + i) / max(abs(kept(g, along + i)), STILL))
     if curves.along.shape[0] > 0:
-        read(begin, end, g, work, curves.along, found)
+        read(begin, end, g, work, curves.along, (c, c_at), found)
         for i in range(begin, end):
             keep(g, along + i, kept(g, along + i) + kept(g, found + i))
-    for i in range(begin, end):
-        keep(g, along + i, take(c, c_at + i) * kept(g, along + i))
 
 
 @njit(**OPTIONS)
-def vary_knots(begin, end, g, square, work, curve):
-    """Put C_D of knots over that of Elements in place of Re^2, in g from square + begin on; the rest as in vary."""
+def vary_knots(begin, end, g, square, work, share, curve):
+    """Put C_D of knots over that of Elements in place of Re^2, in g from square + begin on, times their share.
+
+    share: an array and a place in it, less begin; the rest as in vary.
+    """
     find(begin, end, g, square, work)
-    read(begin, end, g, work, curve, square)
+    read(begin, end, g, work, curve, share, square)
 
 
 @njit(**OPTIONS)

@@ -57,9 +57,10 @@ def _knot_laws(v, u, laws, g, out):
             k = start + i
             square = (u[k, 0] - v[k, 0]) ** 2 + (u[k, 1] - v[k, 1]) ** 2 + (u[k, 2] - v[k, 2]) ** 2
             g[ACROSS * PITCH + i] = square * laws.knot_reynolds[k] ** 2
-        vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, laws.knots)
+        share = laws.knot_share, start
+        vary_knots(0, size, g, ACROSS * PITCH, LAW_WORK * PITCH, share, laws.knots)
         for i in range(size):
-            out[start + i, 0] = 1.0 + laws.knot_share[start + i] * (g[ACROSS * PITCH + i] - 1.0)
+            out[start + i, 0] = 1.0 - laws.knot_share[start + i] + g[ACROSS * PITCH + i]
 
 
 @njit(**OPTIONS)
