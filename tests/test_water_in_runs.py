@@ -80,7 +80,7 @@ def test_a_run_in_waves_writes_their_motion_and_draws_it(waved):
         assert float(row["elevation"]) == pytest.approx(eta, abs=1e-12)
         assert [float(row["u"]), float(row["v"])] == pytest.approx([0.0, across], abs=1e-12)
     assert (folder / "waves.png").stat().st_size > 5000 and (folder / "waves.svg").exists()
-    assert "bars.csv, waves.csv" in shown and "airy, 0.1 m, 2 s, towards 90 deg" in shown
+    assert "bars.csv, parts.csv, waves.csv" in shown and "airy, 0.1 m, 2 s, towards 90 deg" in shown
     assert max(map(len, shown.splitlines())) <= 80
 
 

@@ -113,14 +113,10 @@ def _above_water(case: Case) -> Iterator[str]:
         if known is None or known[1] <= AT_SURFACE:
             continue
         heights = piece.lay(netting, case.twines[netting.twine]).positions[:, 2]
-        air = (
-            "though screens feel the current there, too"
-            if case.drag.kind == "screens"
-            else "and without drag"
-        )
         yield (
             f"{np.count_nonzero(heights > AT_SURFACE)} of {len(heights)} knots of {piece.called} begin above the "
-            f"surface, up to z = {known[1]:.4g} m, with their weight in air {air}; below still water z is negative."
+            f"surface, up to z = {known[1]:.4g} m, with their weight in air and without drag; below still water z is "
+            "negative."
         )
 
 

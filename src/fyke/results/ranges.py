@@ -142,7 +142,11 @@ def _values(
     system, (bars, knots) = around.system, _by_themselves(around.system)
     law, viscosity = system.coefficients.bars, system.water.kinematic_viscosity
     if what == "screens":
-        return {} if around.screens is None else _screen_values(*around.screens.local(position, relative))
+        if around.screens is None:
+            return {}
+        solidity, angle, reynolds = around.screens.local(position, relative)
+        wet = around.screens.wet > 0.0
+        return _screen_values(np.where(wet, solidity, np.nan), angle, np.where(wet, reynolds, 0.0))
     if what == "wakes":
         return {} if around.faces is None else {SOLIDITY: _solidity(around.faces, position)}
     if what == "bars":
