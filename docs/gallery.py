@@ -35,6 +35,7 @@ from fyke.report.figures import (
     equilibrium_shape,
     histories,
     initial_position,
+    sections,
     shape_comparison,
     tension_histogram,
     tension_plan,
@@ -68,6 +69,12 @@ for knot in np.flatnonzero(~result.net.fixed)[::2]:
 Path("measured.csv").write_text("\\n".join(rows), encoding="utf-8")
 shape_comparison(result, compare(result, "measured.csv"))""",
         "For want of a measurement, computed places rounded to 5 mm stand in for it here.",
+    ),
+    "sections": (
+        """cage = fyke.load_case("examples/cylinder.toml")
+caged = fyke.build_system(fyke.build_net(cage), cage)
+sections(fyke.solve_static(caged), current=cage.current.at_surface)""",
+        "Of netting that closes round.",
     ),
     "wave_histories": (
         """sea = irregular(1.0, 6.0, gamma=3.3, depth=30.0, ramp=10.0)

@@ -13,18 +13,21 @@ import fyke
 from fyke.netting.grouping import Grid, carry, grid_of, nearest
 from fyke.netting.together import together
 from fyke.solve import nested
+from fyke.solve.equilibrium import Equilibrium
 from fyke.system.grouped import grouped
+from fyke.water.laws.panels import KristiansenFaltinsen, Loland
+from fyke.water.wakes import ChengTwines, LolandWake
 
 TWINE = fyke.Twine("main", 1140.0, 1.5e-3, fyke.LinearLaw(1e9))
 
 
-def panel_system(meshes, mesh="diamond", fixed="edges", speed=(0.5, 0.0, 0.0), hung=0.9):
+def panel_system(meshes, mesh="diamond", fixed="edges", speed=(0.5, 0.0, 0.0), hung=0.9, **laws):
     bars = np.sqrt(2.0) if mesh == "diamond" else 1.0
     size = tuple(hung * count * 0.03 * bars for count in meshes)
     net = fyke.panel(
         TWINE, mesh=mesh, meshes=meshes, bar_length=0.03, size=size, knot_diameter=3.5e-3, fixed=fixed
     )
-    return fyke.make_system(net, current=speed)
+    return fyke.make_system(net, current=speed, coefficients=fyke.Coefficients(**laws))
 
 
 def on_fewer(system, meshes):
@@ -56,6 +59,10 @@ def test_sag_of_96_meshes_is_the_same_by_nested_iteration(monkeypatch):
         ((30, 24), {"mesh": "square"}),
         ((24, 24), {"fixed": "top"}),
         ((31, 31), {"hung": 1.02, "mesh": "square"}),
+        ((33, 24), {"screens": Loland()}),
+        ((24, 30), {"mesh": "square", "hung": 0.97, "screens": KristiansenFaltinsen()}),
+        ((30, 30), {"twines": ChengTwines(), "speed": (0.1, 0.5, 0.0)}),
+        ((24, 24), {"twines": ChengTwines(), "wake": LolandWake(), "screens": Loland()}),
     ],
 )
 def test_nested_and_plain_end_at_the_same_shape(monkeypatch, meshes, options):
@@ -94,6 +101,25 @@ def test_weight_drag_and_stiffness_of_the_grouped_panel_are_those_of_the_whole()
     )
     assert few.rest_length == pytest.approx(0.06)
     assert small.net.positions.max() == pytest.approx(system.net.positions.max())
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+def test_screens_of_the_grouped_panel_push_as_much(mesh):
+    """Face on: F = 1/2 rho C_D A U^2 with Loeland's C_D = 0.33 Sn + 6.54 Sn^2 - 4.88 Sn^3 of the whole."""
+    system = panel_system((24, 24), mesh=mesh, hung=0.9, screens=Loland())
+    sn = system.faces.solidity[0]
+    width, height = system.net.panels[0].size
+    want = 500.0 * (0.33 * sn + 6.54 * sn**2 - 4.88 * sn**3) * width * height * 0.5**2
+    for one in (system, on_fewer(system, (12, 12)), on_fewer(system, (7, 9))):
+        s = Equilibrium(one, one.at_rest(), None)
+        assert s.b.load[:, 0].sum() == pytest.approx(want, rel=1e-9)
+
+
+def test_the_default_size_of_a_large_panel_counts_screens_too():
+    """90 x 90 meshes: 20 and more iterations from the flat start, 15 at most from grouped meshes."""
+    result = fyke.solve_static(panel_system((90, 90), screens=Loland()))
+    assert result.outcome.ok and "begun from 45 x 45" in result.outcome.message
+    assert result.outcome.iterations <= 15
 
 
 @settings(max_examples=25, deadline=None)
