@@ -167,6 +167,29 @@ def report(
 
 
 @app.command()
+def validate(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder of claims.")] = Path("validation"),
+    only: Annotated[
+        list[str] | None, typer.Option("--only", metavar="NAME", help="This claim alone; may be repeated.")
+    ] = None,
+    fast: Annotated[bool, typer.Option("--fast", help="Leave out the claims that take long.")] = False,
+    jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", min=1, help="Claims at a time.")] = 2,
+    write: Annotated[
+        bool, typer.Option("--write/--no-write", help="Write REPORT.md and report.html into FOLDER.")
+    ] = True,
+    every: Annotated[
+        bool, typer.Option("--all", help="Print every row, not the worst of those alike.")
+    ] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+) -> None:
+    """Check fyke against exact solutions, other programs and experiments, one table."""
+    from .validate import Wishes, validate_folder
+
+    wishes = Wishes(only=tuple(only or ()), fast=fast, jobs=jobs, every=every, json=json, write=write)
+    raise typer.Exit(validate_folder(folder, wishes))
+
+
+@app.command()
 def live(
     case: CaseFile,
     port: Annotated[int, typer.Option("--port", min=1, max=65535, help="Port, or the next free one.")] = 8080,
