@@ -27,8 +27,11 @@ NUMBERS = 12
 
 @dataclass(frozen=True)
 class Wishes:
-    """Options of the command; only: names of claims, all when empty; jobs: so many at a time; every: print
-    every row instead of the worst of those alike."""
+    """Options of the command.
+
+    only: names of claims, all when empty; jobs: so many at a time; every: print every row instead of the worst of those
+    alike.
+    """
 
     only: tuple[str, ...]
     fast: bool

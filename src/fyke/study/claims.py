@@ -94,7 +94,8 @@ class Claim:
 
     def tables(self) -> dict[str, list[Row]]:
         """Read the tables; CaseError with all that is wrong with them."""
-        out, problems = {}, []
+        out: dict[str, list[Row]] = {}
+        problems: list[Problem] = []
         for name, spec in self.data:
             try:
                 out[name] = _table(self.file.parent / spec.file, spec)
@@ -121,7 +122,7 @@ def read_claim(file: Path) -> Claim:
         raw = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise CaseError([Problem(str(file), str(error), "a claim in TOML", "correct the file")]) from None
-    problems = [*_unknown(str(file), raw, _KEYS)]
+    problems: list[Problem] = [*_unknown(str(file), raw, _KEYS)]
     for key in _NEEDED:
         if not raw.get(key):
             problems.append(
