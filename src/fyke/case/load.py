@@ -54,7 +54,14 @@ def parse_case(text: str, where: str = "case", *, path: FilePath | None = None) 
 
     Raises CaseError with every problem found.
     """
-    raw = _toml(text, where)
+    return checked(_toml(text, where), text, where, path=path)
+
+
+def checked(raw: dict[str, Any], text: str, where: str, *, path: FilePath | None) -> Case:
+    """Check the tables of a case; text: what they were read from, for the lines of messages.
+
+    Raises CaseError with every problem found.
+    """
     places = Places(where, text)
     problems: dict[Path, Problem] = {}
     meant: set[Path] = set()

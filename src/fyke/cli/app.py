@@ -43,6 +43,7 @@ def _fyke(
 @app.command()
 def run(
     case: CaseFile,
+    *,
     output: Annotated[
         Path | None,
         typer.Option("-o", "--output", metavar="DIR", help="Folder to write to; CASE's name by default."),
@@ -52,6 +53,15 @@ def run(
     resume: Annotated[
         bool, typer.Option("--resume", help="Go on with a dynamic run that was stopped.")
     ] = False,
+    uncertainty: Annotated[
+        Path | None,
+        typer.Option(
+            "--uncertainty", metavar="STUDY.toml", help="Solve it for samples of uncertain inputs instead."
+        ),
+    ] = None,
+    jobs: Annotated[
+        int, typer.Option("-j", "--jobs", metavar="N", min=1, help="Processes of a study of uncertainty.")
+    ] = 2,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print errors only.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Print summary.json and nothing else.")] = False,
 ) -> None:
@@ -62,6 +72,10 @@ def run(
     wishes = Wishes(
         output=output, figures=figures, overwrite=overwrite, resume=resume, quiet=quiet, json=json
     )
+    if uncertainty is not None:
+        from .uncertainty import run_study
+
+        raise typer.Exit(run_study(case, uncertainty, wishes, jobs=jobs))
     raise typer.Exit(run_case(case, wishes, began))
 
 

@@ -3,7 +3,7 @@
 from .audit import Audit, EnergyBudget, audit
 from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkpoint
 from .compare import Comparison, MeasurementError, compare
-from .derive import summary
+from .derive import summary, unit_of
 from .layout import frame_bytes
 from .parts import PartFigures, by_part, part_figures, write_parts
 from .probes import Probes, probe, probes_of, write_probes
@@ -41,6 +41,7 @@ __all__ = [
     "save",
     "save_checkpoint",
     "summary",
+    "unit_of",
     "water_figures",
     "write_parts",
     "write_probes",

@@ -36,6 +36,20 @@ def drag_and_lift(force: Array, flow_direction: ArrayLike | None) -> tuple[float
     return drag, float(np.linalg.norm(force - drag * along))
 
 
+# Units of what `summary` returns; the rest are counts, ratios and texts.
+UNITS = {
+    **dict.fromkeys(("max_tension", "drag", "lift", "weight_in_water", "residual"), "N"),
+    **dict.fromkeys(("support_reaction", "hydrodynamic_force"), "N"),
+    "max_displacement": "m",
+    **dict.fromkeys(("time", "wall_time"), "s"),
+}
+
+
+def unit_of(key: str) -> str:
+    """Return the unit of a figure of the summary by its dotted key, "" for none."""
+    return UNITS.get(key.split(".", maxsplit=1)[0], "")
+
+
 def summary(
     result: Result,
     *,
