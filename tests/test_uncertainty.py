@@ -97,7 +97,9 @@ def test_outputs_are_what_the_inputs_make_of_them(files, tmp_path, method):
     assert found.mean == pytest.approx(mean, rel=2e-3)
     assert found.nominal == pytest.approx(drag(1.2, 0.5), rel=1e-12)
     square = drag(1.0, 1.0) ** 2 * (1.2**2 + 0.1**2) * (0.55**5 - 0.45**5) / 0.5
-    assert found.deviation == pytest.approx(np.sqrt(square - mean**2), rel=0.03)
+    # Columns of a Latin hypercube are paired by chance: three standard errors of a deviation, 1 / sqrt(2 n) each.
+    rel = 0.02 if method == "sobol" else 3.0 / np.sqrt(2.0 * 256)
+    assert found.deviation == pytest.approx(np.sqrt(square - mean**2), rel=rel)
 
 
 def test_the_tornado_moves_one_input_at_a_time(files, tmp_path):
