@@ -35,7 +35,7 @@ def water_on_bars(rel, el, t, length, out):
 
 
 def bar_tensions(system: System, state: State, t: Array, length: Array) -> Array:
-    """Tension of every bar, (m,) N: elastic law and twine damping, zero where slack, below zero in compressed two-way bars."""
+    """Tension of every bar, (m,) N: elastic law and twine damping, zero where slack, negative in tubes that push."""
     el = system.elements
     stretch = length - el.rest_length
     f, k = np.empty_like(length), np.empty_like(length)

@@ -20,7 +20,7 @@ from ..forces.evaluate import bar_tensions
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.surroundings import Surroundings
 from ..system.system import State, System
-from .equilibrium import typical_tension
+from .equilibrium import ROUNDING, typical_tension
 from .linear import SingularMatrixError
 from .smooth import begin_smooth
 from .step_newton import Ahead, StepNewton
@@ -133,7 +133,10 @@ class ImplicitRun:
         self.x, self.v, self.time = state.position.copy(), state.velocity.copy(), state.time
         self.a, f, load = self._beginning()
         prestress = float(np.maximum(f, 0.0).sum()) / max(len(f), 1)
-        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, TINY)
+        rounding = ROUNDING * float(
+            np.finfo(float).eps * el.stiffness.max(initial=0.0) * np.abs(self.x).max()
+        )
+        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, rounding, TINY)
         mu = (SMOOTHING * self.tension_scale) ** 2
         self.newton = StepNewton(self.surroundings, self.u, mu, self.tension_scale)
         self.linear_solver = self.newton.linear.name

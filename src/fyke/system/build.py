@@ -119,7 +119,7 @@ def make_system(
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
-        two_way=np.array([t.compression for t in net.twines], dtype=bool)[net.twine_of_bar],
+        two_way=net.two_way,
         **drag,
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
