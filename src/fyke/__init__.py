@@ -9,8 +9,10 @@ from .version import __version__
 
 if TYPE_CHECKING:
     from .case import Case, CaseError, load_case, parse_case
+    from .netting.chain import chain
     from .netting.elastic import LinearLaw, PowerLaw, QuadraticLaw, TableLaw
     from .netting.line import line
+    from .netting.lines import LinePiece, with_line
     from .netting.net import Net
     from .netting.panel import panel
     from .netting.twine import Twine
@@ -39,6 +41,7 @@ _HOME = {
     "ConstantBar": "water.laws.bars",
     "ConstantKnot": "water.laws.knots",
     "Implicit": "solve.implicit",
+    "LinePiece": "netting.lines",
     "LinearLaw": "netting.elastic",
     "Modes": "solve.modes",
     "Net": "netting.net",
@@ -57,6 +60,7 @@ _HOME = {
     "Water": "system.laws",
     "build_net": "system.build",
     "build_system": "system.build",
+    "chain": "netting.chain",
     "line": "netting.line",
     "load": "results",
     "load_case": "case",
@@ -67,6 +71,7 @@ _HOME = {
     "save": "results",
     "simulate": "solve.dynamic",
     "solve_static": "solve.static",
+    "with_line": "netting.lines",
 }
 
 __all__ = [
@@ -77,6 +82,7 @@ __all__ = [
     "ConstantBar",
     "ConstantKnot",
     "Implicit",
+    "LinePiece",
     "LinearLaw",
     "Modes",
     "Net",
@@ -96,6 +102,7 @@ __all__ = [
     "__version__",
     "build_net",
     "build_system",
+    "chain",
     "line",
     "load",
     "load_case",
@@ -106,6 +113,7 @@ __all__ = [
     "save",
     "simulate",
     "solve_static",
+    "with_line",
 ]
 
 
