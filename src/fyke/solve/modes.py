@@ -93,12 +93,9 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     el = el._replace(free=free)
     pattern = Pattern.of(el, around.groups)
     data = _stiffness_data(t, along, across, el, pattern)
-    for part, places in zip(
-        around.parts, pattern.groups[len(pattern.groups) - len(around.parts) :], strict=True
-    ):
-        part.assemble(1.0, 0.0, places, symmetric=True, data=data)
+    # In still water: parts and buoyancy alone.
+    around.assemble(x, still, 1.0, 0.0, pattern.groups, symmetric=True, data=data)
     places = pattern.start, pattern.stride, pattern.diagonal
-    # Of still water: buoyancy alone.
     around.add_wetting(x, still, el, t, length, places, pattern.groups, symmetric=True, data=data)
     stiffness = pattern.matrix(data)
     mass = _mass_matrix(x, el, pattern)
