@@ -32,6 +32,8 @@ class HeldWater:
     def __init__(self, system: System, state: State) -> None:
         if system.coefficients.screens is not None:
             raise ValueError("screens need an implicit method: take Implicit, Newmark or Auto")
+        if system.motion is not None:
+            raise ValueError("knots that are moved need an implicit method: take Implicit, Newmark or Auto")
         self._around = Surroundings(system)
         self._around.renew(state.position, state.time)
         self._present = self._around.given(state.position, state.velocity, state.time)
