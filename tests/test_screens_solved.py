@@ -60,7 +60,7 @@ def test_faces_count_in_the_memory_that_is_asked_for(monkeypatch, name):
     pytest.importorskip("cvxopt" if name == "cholmod" else "scipy")
     net = panel(meshes=(50, 50))
     el, faces = fyke.make_system(net).elements, faces_of(net)
-    plain, joined = Pattern.of(el), Pattern.of(el, faces.corners)
+    plain, joined = Pattern.of(el), Pattern.of(el, (faces.corners,))
     # SuperLU's factors hold 0.0175 and 0.0326 GB, counted; CHOLMOD's are half of that, and GMRES takes its share.
     room = 0.036 if name == "superlu" else 0.021
     monkeypatch.setenv(VARIABLE, str(room))

@@ -68,6 +68,8 @@ def evaluate(system: System, state: State) -> Frame:
     if surroundings.screens is not None and surroundings.faces is not None:
         share_with_bars(surroundings.screens.forces(state.position, rel), surroundings.faces.bars, on_bars)
     water = total - system.elements.weight
+    if surroundings.parts:
+        water -= surroundings.load_of_parts()
     add_tension(tension, el, t, total)
     flow = 0.5 * (u[el.knot_a] + u[el.knot_b])
     past = flow if system.motion is None else flow - system.motion.tow

@@ -22,6 +22,7 @@ from ..system.system import Displaced, System
 from .bars import water_load
 from .compiled import OPTIONS
 from .laws import coefficients_of_bars, coefficients_of_knots
+from .part import parts_of
 from .screens import Screens
 from .shelter import Shelter
 from .total import TINY_LENGTH
@@ -75,7 +76,8 @@ def _by_law(x: Array, rel: Array, el: Elements, laws: DragLaws) -> Elements:
 class Surroundings:
     """The water around one net on its way.
 
-    left: (n, 1), the part of the current that shelter leaves, that of the shape of the last renewal.
+    left: (n, 1), the part of the current that shelter leaves, that of the shape of the last renewal; parts: what acts
+    besides water, bars and knots.
     """
 
     def __init__(self, system: System) -> None:
@@ -90,6 +92,7 @@ class Surroundings:
         self.faces = system.faces
         self.screens: Screens | None = None
         self._shelter: Shelter | None = None
+        self.parts = parts_of(system)
         self.left = np.ones((net.knot_count, 1))
         # Velocity of the current when last asked for: made once where it is the same always and everywhere.
         self._everywhere: Array | None = None
@@ -126,18 +129,48 @@ class Surroundings:
         return self._shelter is not None
 
     @property
-    def groups(self) -> NDArray[np.int64] | None:
-        """Knots (p, 4) that act on each other besides those of the bars."""
-        return None if self.screens is None or self.faces is None else self.faces.corners
+    def groups(self) -> tuple[Places, ...]:
+        """Knots (p, q) that act on each other besides those of the bars: of the faces, if any, then of each part."""
+        parts = tuple(part.groups for part in self.parts)
+        return parts if self.screens is None or self.faces is None else (self.faces.corners, *parts)
 
     def load(self, x: Array, rel: Array, el: Elements, t: Array, length: Array, out: Array) -> None:
-        """Weight, buoyancy and water on every knot into out (n, 3) N; el and rel (n, 3) m/s as `at` gives them.
+        """Weight, buoyancy, water and parts on every knot into out (n, 3) N; el and rel (n, 3) m/s as `at` gives them.
 
         t, length: (m, 3), (m,) m, of the bars.
         """
         water_load(rel, el, t, length, out)
         if self.screens is not None:
             self.screens.add_load(x, rel, out)
+        for part in self.parts:
+            part.add_load(out)
+
+    def load_of_parts(self) -> Array:
+        """Force of the parts on every knot as the last `at` saw them, (n, 3) N."""
+        out = np.zeros((self.system.net.knot_count, 3))
+        for part in self.parts:
+            part.add_load(out)
+        return out
+
+    def assemble(
+        self,
+        x: Array,
+        rel: Array,
+        c0: float,
+        c1: float,
+        groups: tuple[tuple[Places, Places], ...],
+        *,
+        symmetric: bool,
+        data: Array,
+    ) -> None:
+        """Add c0 (-dF/dx) + c1 (-dF/dv) of screens and parts to the data of a matrix; arguments as of `load`.
+
+        groups: of the solve.pattern.Pattern made with `groups`; symmetric: add the symmetric part alone.
+        """
+        if self.screens is not None:
+            self.screens.assemble(x, rel, c0, c1, groups[0], symmetric=symmetric, data=data)
+        for part, places in zip(self.parts, groups[len(groups) - len(self.parts) :], strict=True):
+            part.assemble(c0, c1, places, symmetric=symmetric, data=data)
 
     def velocity(self, x: Array, time: float) -> Array:
         """Velocity of the current at knots x (n, 3) m, sheltered, waves left out, (n, 3) m/s."""
@@ -162,7 +195,7 @@ class Surroundings:
         t: Array,
         length: Array,
         places: tuple[Places, Places, Places],
-        groups: tuple[Places, Places],
+        groups: tuple[tuple[Places, Places], ...],
         *,
         symmetric: bool,
         data: Array,
@@ -180,7 +213,7 @@ class Surroundings:
         if self.screens is not None:
             force, arrays = self.screens.forces(x, rel), self.screens.arrays
             add_face_wetting(
-                self._depth, force, arrays, self._twine_radius, self.screens.wet, symmetric, groups, data
+                self._depth, force, arrays, self._twine_radius, self.screens.wet, symmetric, groups[0], data
             )
 
     def at(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
@@ -194,6 +227,8 @@ class Surroundings:
 
     def given(self, x: Array, v: Array, time: float) -> tuple[Elements, Array]:
         """Return what `at` does with the laws of drag not yet asked: for kernels that ask them at every step."""
+        for part in self.parts:
+            part.see(x, v, time)
         system, u = self.system, self.velocity(x, time)
         waves = None if system.waves is None else system.waves.motion(x, time)
         if waves is not None:

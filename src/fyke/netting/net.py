@@ -72,11 +72,15 @@ class Panel:
 
 @dataclass(frozen=True)
 class Rope:
-    """A rope: its knots (k,) in order and its bars (k - 1,)."""
+    """Bars in a row: its knots (k,) in order, the last one the first where it closes, and its bars (k - 1,).
+
+    kind: "rope" along netting, "line" that runs free of it, such as a mooring line, "ring" and "collar" of tubes.
+    """
 
     name: str
     knots: NDArray[np.int64]
     bars: NDArray[np.int64]
+    kind: str = "rope"
 
 
 @dataclass(frozen=True)

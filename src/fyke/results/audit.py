@@ -1,12 +1,12 @@
 """The accounts of a run: forces that balance, energy that went in and where it is.
 
-Forces, at the last frame. What acts on a knot is water + weight less buoyancy + dead load + tension of its bars, and
-the tensions cancel in the sum over all knots, so
+Forces, at the last frame. What acts on a knot is water + weight less buoyancy + dead load + parts + tension of its
+bars, and the tensions cancel in the sum over all knots, so
     sum of loads - support reaction = sum of (M a) over the free knots,
 which is zero at rest and the inertia force of the net in motion, of held knots too where they are moved.
 
 Energy, between the first and the last frame. M(x) a = F times v, summed over the knots and integrated, is
-    change of (kinetic + elastic + potential) = current - drag - twine + added mass + inertia + supports
+    change of (kinetic + elastic + potential) = current - drag - twine + added mass + inertia + parts + supports
                                                      - remainder  (J)
     kinetic     1/2 sum v.M v, added mass included
     elastic     sum over bars of l0 times the integral of T over strain, up to the strain of the bar
@@ -17,6 +17,7 @@ Energy, between the first and the last frame. M(x) a = F times v, summed over th
     added mass  integral of 1/2 sum v.(dM/dt) v: the added mass of a bar turns with it, and M a = F leaves this out
     inertia     integral of sum I.v, I the force of accelerating water on a knot and the buoyancy that it loses above
                 the surface
+    parts       integral of sum P.v, P the force of what acts besides water, bars and knots (forces.part)
     supports    integral of sum S.v over held knots that are moved, S = M a - F the force of the support on a knot
 """
 
@@ -45,8 +46,8 @@ class EnergyBudget:
     """Energy of a net between the first and the last frame, all in J; formulas at the head of the module.
 
     kinetic, elastic, potential: changes; current_work, drag_dissipation, twine_dissipation, added_mass_work,
-    inertia_work, support_work: integrals of the power in the frames by the trapezoidal rule; remainder: what went in
-    and is in none of these, positive where energy got lost.
+    inertia_work, parts_work, support_work: integrals of the power in the frames by the trapezoidal rule; remainder:
+    what went in and is in none of these, positive where energy got lost.
 
     The integrals see the motion at the output times only. The remainder is therefore the numerical damping and the
     error of the method together with the error of sampling, which falls with the square of the interval between
@@ -61,6 +62,7 @@ class EnergyBudget:
     twine_dissipation: float
     added_mass_work: float
     inertia_work: float
+    parts_work: float
     support_work: float
     remainder: float
 
@@ -76,7 +78,8 @@ class Audit:
 
     unbalanced_force: largest force on a free knot that nothing balances in the last frame, N; in motion it is the
     knot's M a. unbalanced_knot: the label of this knot, None where all are held. load: hydrodynamic force, weight
-    less buoyancy and dead loads of the whole net, (3,) N. load_size: sizes of the loads on the knots added up, N.
+    less buoyancy, dead loads and parts of the whole net, (3,) N. load_size: sizes of the loads on the knots added up,
+    N.
     load_less_reaction: load - support reaction, (3,) N: what the statics left unbalanced, or the inertia force of a
     net in motion. mass, added_mass: kg, of the free knots and the bars' ends there, added mass as the mean of the three
     directions; inertia_force: (3,) N, of accelerating water on the whole net and the buoyancy lost above the surface,
@@ -124,7 +127,7 @@ def audit(system: System, result: Result) -> Audit:
         raise ValueError("the result is of another net than the system")
     last, el = result.frame(), system.elements
     mass, added_mass = _masses(system, last)
-    load = last.water_force + el.weight
+    load = last.water_force + el.weight + _of_parts(system, last)
     size = np.linalg.norm(forces_on_knots(system, last), axis=1) * el.free
     worst = int(np.argmax(size))
     return Audit(
@@ -141,11 +144,11 @@ def audit(system: System, result: Result) -> Audit:
 
 
 def forces_on_knots(system: System, frame: Frame) -> Array:
-    """Water, weight, dead load and tensions on every knot, (n, 3) N; what a held knot hands to its support."""
+    """Water, weight, dead load, parts and tensions on every knot, (n, 3) N; what a held knot hands to its support."""
     el = system.elements
     t, _ = _directions(frame, el)
     pull = frame.tension[:, None] * t
-    total = frame.water_force + el.weight
+    total = frame.water_force + el.weight + _of_parts(system, frame)
     np.add.at(total, el.knot_a, pull)
     np.subtract.at(total, el.knot_b, pull)
     return np.asarray(total)
@@ -226,6 +229,14 @@ def _masses(system: System, frame: Frame) -> tuple[float, float]:
     return float(own @ el.free), float((whole - own) @ el.free)
 
 
+def _of_parts(system: System, frame: Frame) -> Array:
+    """Force of what acts besides water, bars and knots, (n, 3) N."""
+    surroundings = Surroundings(system)
+    if surroundings.parts:
+        surroundings.at(frame.position, frame.velocity, frame.time)
+    return surroundings.load_of_parts()
+
+
 def _of_moving_water(system: System, frame: Frame) -> tuple[Array, Array]:
     """Velocity of the water at the knots (n, 3) m/s, and the force of its acceleration and lost buoyancy (n, 3) N."""
     surroundings = Surroundings(system)
@@ -234,8 +245,8 @@ def _of_moving_water(system: System, frame: Frame) -> tuple[Array, Array]:
     return u, el.weight - system.elements.weight
 
 
-def _powers(system: System, frame: Frame) -> tuple[float, float, float, float, float, float]:
-    """Power (W) of current, drag, twine damping, turning added mass, fluid inertia and supports in one frame."""
+def _powers(system: System, frame: Frame) -> tuple[float, ...]:
+    """Power (W) of current, drag, twine, turning added mass, fluid inertia, parts and supports in one frame."""
     el, v = system.elements, frame.velocity
     u, inertia = _of_moving_water(system, frame)
     force = frame.water_force - inertia
@@ -252,6 +263,7 @@ def _powers(system: System, frame: Frame) -> tuple[float, float, float, float, f
         float(viscous @ rate),
         -float(np.sum(el.bar_added_mass * turning)),
         float(np.sum(inertia * v)),
+        float(np.sum(_of_parts(system, frame) * v)),
         _support_power(system, frame),
     )
 
@@ -273,7 +285,9 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
     el = system.elements
     first, last = result.frame(0), result.frame()
     powers = np.array([_powers(system, result.frame(k)) for k in range(len(result.time))])
-    current, drag, twine, turning, inertia, support = np.trapezoid(powers, result.time, axis=0).tolist()
+    current, drag, twine, turning, inertia, parts, support = np.trapezoid(
+        powers, result.time, axis=0
+    ).tolist()
     kinetic = float(last.kinetic_energy - first.kinetic_energy)
     stored = [elastic_energy(el, _elastic_length(el, frame)) for frame in (first, last)]
     stretching = float(np.sum(stored[1] - stored[0]))
@@ -287,6 +301,16 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
         twine_dissipation=twine,
         added_mass_work=turning,
         inertia_work=inertia,
+        parts_work=parts,
         support_work=support,
-        remainder=current + turning + inertia + support - drag - twine - kinetic - stretching - potential,
+        remainder=current
+        + turning
+        + inertia
+        + parts
+        + support
+        - drag
+        - twine
+        - kinetic
+        - stretching
+        - potential,
     )

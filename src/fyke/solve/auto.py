@@ -17,6 +17,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from ..forces.part import only_implicit
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import State, System
@@ -66,8 +67,8 @@ class Auto:
             raise ValueError(f"rtol {self.rtol:g} must not be below 0 and atol {self.atol:g} must be above 0")
 
     def start(self, system: System, state: State) -> AutoRun | ImplicitRun:
-        """Begin a run; screens and moved knots are for the implicit method alone."""
-        if system.coefficients.screens is not None or system.motion is not None:
+        """Begin a run; screens, parts and moved knots are for the implicit method alone."""
+        if only_implicit(system):
             return Implicit(self.rtol, self.atol, self.max_step).start(system, state)
         return AutoRun(self, system, state)
 

@@ -123,8 +123,7 @@ class Equilibrium:
         b, p = self.b, self.pattern
         assemble(b.block, self.u, self.el, b.t, p.start, p.stride, b.data)
         water = self.surroundings
-        if water.screens is not None:
-            water.screens.assemble(self.x, self.u, 1.0, 0.0, p.groups, symmetric=False, data=b.data)
+        water.assemble(self.x, self.u, 1.0, 0.0, p.groups, symmetric=False, data=b.data)
         shear = water.shear(self.x + self.origin, self.time)
         if shear is not None:
             add_shear(self._drag(), shear, p.free, p.indptr, b.data)
@@ -141,8 +140,9 @@ class Equilibrium:
             self.u, self.el, b.t, b.length, none, none, 0.0, 1.0, 0.0, np.zeros((n, 6)), False,
             p.start, p.stride, p.diagonal, data,
         )  # fmt: skip
-        if self.surroundings.screens is not None:
-            self.surroundings.screens.assemble(self.x, self.u, 0.0, 1.0, p.groups, symmetric=False, data=data)
+        screens = self.surroundings.screens
+        if screens is not None:
+            screens.assemble(self.x, self.u, 0.0, 1.0, p.groups[0], symmetric=False, data=data)
         return data
 
     def move(self, solve: Solve) -> None:

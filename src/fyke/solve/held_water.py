@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..forces.part import only_implicit
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import State, System
@@ -30,10 +31,9 @@ class HeldWater:
     """Elements and water for one span after the other."""
 
     def __init__(self, system: System, state: State) -> None:
-        if system.coefficients.screens is not None:
-            raise ValueError("screens need an implicit method: take Implicit, Newmark or Auto")
-        if system.motion is not None:
-            raise ValueError("knots that are moved need an implicit method: take Implicit, Newmark or Auto")
+        what = only_implicit(system)
+        if what:
+            raise ValueError(f"{what} an implicit method: take Implicit, Newmark or Auto")
         self._around = Surroundings(system)
         self._around.renew(state.position, state.time)
         self._present = self._around.given(state.position, state.velocity, state.time)

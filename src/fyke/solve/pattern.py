@@ -21,8 +21,8 @@ class Pattern:
     indices, indptr: of the matrix; start: (m, 4) position in the data of the first entry of the blocks (a, a),
     (b, a), (a, b), (b, b) of each bar, -1 where an end is held; stride: (m, 2) entries per column in the block
     columns of a and b; diagonal: (n, 2) start and stride of a knot's own block, -1 and 0 when held; free: (n_free,)
-    indices of the free knots; groups: start (p, 4, 4) of the blocks of every two knots of a group, rows before columns,
-    -1 where one is held, and stride (p, 4) in their columns.
+    indices of the free knots; groups: for each of the given ones start (p, q, q) of the blocks of every two knots of a
+    group, rows before columns, -1 where one is held, and stride (p, q) in their columns.
     """
 
     indices: NDArray[np.int32]
@@ -31,13 +31,13 @@ class Pattern:
     stride: Places
     diagonal: Places
     free: Places
-    groups: tuple[Places, Places]
+    groups: tuple[tuple[Places, Places], ...]
 
     @classmethod
-    def of(cls, el: Elements, groups: Places | None = None) -> Pattern:
+    def of(cls, el: Elements, groups: tuple[Places, ...] = ()) -> Pattern:
         """Find the pattern of a net; its bars may repeat a pair of knots.
 
-        groups: (p, 4) knots that act on each other too, the corners of faces; a group may repeat a knot.
+        groups: each (p, q), knots that act on each other too, as the corners of faces; a group may repeat a knot.
         """
         free = np.flatnonzero(el.free)
         count, n = len(free), len(el.free)
@@ -47,13 +47,13 @@ class Pattern:
         both = np.flatnonzero((a >= 0) & (b >= 0))
         # Blocks by column, then row: every knot with itself, and both ends of every free bar with each other.
         own = np.arange(count) * (count + 1)
-        rows, columns, apart = _pairs(slot, groups)
+        pairs = [_pairs(slot, some) for some in groups]
         keys = np.concatenate(
             [
                 own,
                 a[both] * count + b[both],
                 b[both] * count + a[both],
-                columns[apart] * count + rows[apart],
+                *(columns[apart] * count + rows[apart] for rows, columns, apart in pairs),
             ]
         )
         blocks, which = np.unique(keys, return_inverse=True)
@@ -74,9 +74,12 @@ class Pattern:
         start[:, 0], start[:, 3] = mine[a], mine[b]
         ends = count + 2 * len(both)
         start[both, 1], start[both, 2] = place[which[count:ends]].reshape(2, -1)
-        among = np.where(rows == columns, mine[rows], -1)
-        among[apart] = place[which[ends:]]
-        safe = np.append(stride, 0)
+        safe, among = np.append(stride, 0), []
+        for rows, columns, apart in pairs:
+            begin, ends = ends, ends + int(apart.sum())
+            blocks_there = np.where(rows == columns, mine[rows], -1)
+            blocks_there[apart] = place[which[begin:ends]]
+            among.append((blocks_there, np.ascontiguousarray(safe[columns[:, 0]])))
         return cls(
             indices=indices,
             indptr=np.concatenate([[0], np.cumsum(np.repeat(stride, 3))]).astype(np.int32),
@@ -84,7 +87,7 @@ class Pattern:
             stride=np.column_stack([safe[a], safe[b]]),
             diagonal=np.column_stack([mine[slot], safe[slot]]),
             free=free,
-            groups=(among, np.ascontiguousarray(safe[columns[:, 0]])),
+            groups=tuple(among),
         )
 
     @property
@@ -97,8 +100,8 @@ class Pattern:
         return sp.csc_matrix((data, self.indices, self.indptr), shape=(self.size, self.size))
 
 
-def _pairs(slot: Places, groups: Places | None) -> tuple[Places, Places, NDArray[np.bool_]]:
-    """Slots of every two knots of a group, rows and columns (p, 4, 4), and whether both are free and not the same."""
-    corners = slot[np.empty((0, 4), dtype=np.int64) if groups is None else groups]
+def _pairs(slot: Places, groups: Places) -> tuple[Places, Places, NDArray[np.bool_]]:
+    """Slots of every two knots of a group, rows and columns (p, q, q), and whether both are free and not the same."""
+    corners = slot[groups]
     rows, columns = np.broadcast_arrays(corners[:, :, None], corners[:, None, :])
     return rows, columns, (rows >= 0) & (columns >= 0) & (rows != columns)

@@ -155,11 +155,9 @@ class StepNewton:
             self.rel, self.el, self.t, self.length, self.T, self.along, 1.0, c1 / c0, 1.0 / c0, self.mass,
             self.symmetric, p.start, p.stride, p.diagonal, self.data,
         )  # fmt: skip
-        screens = self.surroundings.screens
-        if screens is not None:
-            screens.assemble(
-                self.x, self.rel, 1.0, c1 / c0, p.groups, symmetric=self.symmetric, data=self.data
-            )
+        self.surroundings.assemble(
+            self.x, self.rel, 1.0, c1 / c0, p.groups, symmetric=self.symmetric, data=self.data
+        )
         places = p.start, p.stride, p.diagonal
         self.surroundings.add_wetting(
             self.x, self.rel, self.el, self.t, self.length, places, p.groups,
