@@ -52,11 +52,8 @@ def only_implicit(system: System) -> str:
     """Say what of a system only statics and implicit methods can do, "" where there is nothing."""
     if system.coefficients.screens is not None:
         return "screens need"
-<<<<<<< HEAD
     if system.motion is not None:
         return "knots that are moved need"
-=======
     if system.bed is not None:
         return "a sea bed needs"
->>>>>>> main
     return ""
