@@ -64,7 +64,9 @@ def with_shared_bars(net: Net) -> Net:
     if len({chain.shape[1] for chain in chains}) > 1:
         raise ValueError("panels whose bars are cut into different numbers of segments share no bars")
     every = np.concatenate(chains)
-    _, first, which = np.unique(ends[:, 0] * net.knot_count + ends[:, 1], return_index=True, return_inverse=True)
+    _, first, which = np.unique(
+        ends[:, 0] * net.knot_count + ends[:, 1], return_index=True, return_inverse=True
+    )
     own = every[first[which]]
     turned = net.bars[own[:, 0], 0] != net.bars[every[:, 0], 0]
     own[turned] = own[turned, ::-1]
@@ -88,7 +90,8 @@ def with_shared_bars(net: Net) -> Net:
         knot_density=net.knot_density[stays],
         load=net.load[stays],
         panels=tuple(
-            replace(one, knots=place[one.knots], bars=bars) for one, bars in zip(net.panels, rows, strict=True)
+            replace(one, knots=place[one.knots], bars=bars)
+            for one, bars in zip(net.panels, rows, strict=True)
         ),
         ropes=tuple(replace(one, knots=place[one.knots], bars=number[one.bars]) for one in net.ropes),
         bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),

@@ -75,7 +75,7 @@ class Panel:
         """Knots of the net along an edge, in order from left to right or from below; corners: of a box."""
         grid = self.lattice
         if which in ("top", "bottom", "left", "right"):
-            return self.knots[grid.edge(cast(Side, which))]
+            return self.knots[grid.edge(which)]
         number = int(which.removeprefix("corner")) - 1
         if number >= len(self.folds):
             raise ValueError(f"netting '{self.name}' has no {which}")

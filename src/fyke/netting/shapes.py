@@ -114,9 +114,9 @@ def box(
 
     meshes: along x, along y and along the depth; size: m, likewise; bottom: whether it has one, of the meshes of its
     sides; top: m, middle of the upper rim; fixed: which knots are held. The walls are one panel, NAME, that goes round
-    from the corner at +x -y by +x +y; its corners are corner1 to corner4 in this order. The bottom is NAME bottom, i along
-    x and j against y; along the seam it has the knots and the bars of the walls. ValueError for a bottom of hexagons,
-    whose edges do not match those of the walls.
+    from the corner at +x -y by +x +y; its corners are corner1 to corner4 in this order. The bottom is NAME bottom, i
+    along x and j against y; along the seam it has the knots and the bars of the walls. ValueError for a bottom of
+    hexagons, whose edges do not match those of the walls.
     """
     if bottom and isinstance(netting.mesh, Hexagon):
         raise ValueError("a bottom of hexagonal netting does not match its walls: leave it out")
@@ -128,7 +128,7 @@ def box(
     def walls(steps: Array, intervals: Array) -> Array:
         across = (steps[:, 0] + 0.5 * intervals[0]) * (folds[-1] / intervals[0])
         x, y = (np.interp(across, folds, corner) for corner in corners.T)
-        return np.column_stack([x, y, lz * steps[:, 1] / intervals[1]]) + where
+        return np.asarray(np.column_stack([x, y, lz * steps[:, 1] / intervals[1]]) + where)
 
     where = np.array(top) - [0.0, 0.0, 0.5 * lz]
     made = sheet(
@@ -147,7 +147,7 @@ def box(
 
     def floor(steps: Array, intervals: Array) -> Array:
         x, y = (steps * np.array([lx, -ly]) / intervals).T
-        return np.column_stack([x, y, np.full(len(x), -0.5 * lz)]) + where
+        return np.asarray(np.column_stack([x, y, np.full(len(x), -0.5 * lz)]) + where)
 
     below = sheet(
         netting,

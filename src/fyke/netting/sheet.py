@@ -56,10 +56,10 @@ def sheet(
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
     knots is the first; tip: the lowest row is one knot; taper: how its sides are cut, meshes and size being those of
-    the wide end; folds: meshes from the left at which it is folded; fixed: which knots are held. Knots are labelled "i-j", with
-    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
-    "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to a tip, and for
-    netting both cut and closed.
+    the wide end; folds: meshes from the left at which it is folded; fixed: which knots are held. Knots are labelled
+    "i-j", with "name:" before it when there is a name; those within a bar of several segments by the bar's ends and
+    their number, "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to
+    a tip, and for netting both cut and closed.
     """
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
     if hexagon and (tip or (closed and hexagon.turned)):
