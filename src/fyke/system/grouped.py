@@ -68,6 +68,7 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         elements=elements,
         displaced=displaced,
         drag_laws=system.drag_laws and system.drag_laws.of(bars, knots),
+        motion=None,
         faces=None if system.faces is None else _faces(small, system.faces),
         sources=(),
         case_text="",
