@@ -15,7 +15,7 @@ from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
-from .gear_check import gear_findings, reference
+from .gear_check import gear_findings, has_bottom, reference
 from .keys import nearest
 from .load_case import load_case_file_problems, load_case_findings
 from .places import Path
@@ -91,7 +91,7 @@ class Parts:
         for index, keys in self.gear_tables():
             if not RIGGING & {keys.get("kind") if isinstance(keys.get("kind"), str) else ""}:
                 name = self.name_of(index)
-                names += [name, f"{name} bottom".strip()] if "bottom" in keys else [name]
+                names += [name, f"{name} bottom".strip()] if has_bottom(keys) else [name]
         return names
 
     def name_of(self, index: int, sheet: Sheet | None = None) -> str:
