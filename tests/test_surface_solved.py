@@ -97,7 +97,9 @@ def test_a_floating_ball_dives_by_the_cap_it_needs():
 def test_the_wet_part_of_a_bar_is_the_mean_of_segments_along_it():
     rng = np.random.default_rng(2)
     for a, b in rng.uniform(-0.03, 0.03, (20, 2)):
-        mean = quad(lambda t, a=a, b=b: segment((a + t * (b - a)) / 0.01), 0.0, 1.0, epsabs=1e-12, limit=400)[0]
+        mean = quad(lambda t, a=a, b=b: segment((a + t * (b - a)) / 0.01), 0.0, 1.0, epsabs=1e-12, limit=400)[
+            0
+        ]
         assert wet_bar(a, b, 0.01)[0] == pytest.approx(mean, abs=1e-8)
     for depth in (-0.0099, -0.004, 0.0, 0.0077):
         near = [wet_bar(depth - gap, depth + gap, 0.01)[0] for gap in (0.0, 4e-8, 6e-8, 1e-6)]
@@ -111,7 +113,9 @@ def test_slopes_of_the_wet_part_by_complex_step():
 
     def immersed(s):
         square = 1.0 - s * s
-        return (1 + s) / 2 + (np.sqrt(square) - np.sqrt(square) ** 3 / 3 + s * np.arcsin(s) - np.pi / 2) / np.pi
+        return (1 + s) / 2 + (
+            np.sqrt(square) - np.sqrt(square) ** 3 / 3 + s * np.arcsin(s) - np.pi / 2
+        ) / np.pi
 
     step, radius = 1e-30, 0.2
     for a, b in [(-0.1, 0.05), (0.15, 0.03), (-0.19, 0.19)]:
