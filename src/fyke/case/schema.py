@@ -11,14 +11,17 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
+from .box import BoxSpec
 from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .load_case import LoadCaseSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
+from .tapered import TrapezoidSpec, TriangleSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -88,7 +91,16 @@ class DynamicSolve(Table):
 
 
 Gear = Annotated[
-    PanelSpec | CylinderSpec | ConeSpec | FrustumSpec | RopeSpec | SinkersSpec | FloatsSpec,
+    PanelSpec
+    | TrapezoidSpec
+    | TriangleSpec
+    | CylinderSpec
+    | ConeSpec
+    | FrustumSpec
+    | BoxSpec
+    | RopeSpec
+    | SinkersSpec
+    | FloatsSpec,
     Field(discriminator="kind"),
 ]
 
@@ -150,6 +162,12 @@ class Case(Table):
     solve: SolveSpec = Field(default=StaticSolve(), description="how to solve")
     output: Output = Field(default=Output(), description="what to write")
     compare: Compare | None = Field(default=None, description="measurements")
+    load_case: tuple[LoadCaseSpec, ...] = Field(
+        default=(), description="the same gear in other currents and waves, one [[load_case]] each"
+    )
+    chosen_load_case: Name | None = Field(
+        default=None, description="name of the one load case that is meant, in place of [current] and [waves]"
+    )
     _text: str = PrivateAttr(default="")
     _path: Path | None = PrivateAttr(default=None)
     _warnings: tuple[str, ...] = PrivateAttr(default=())
@@ -229,7 +247,7 @@ class Case(Table):
         """Solidity of the netting as it is hung, the mean by its areas."""
         solid, area = 0.0, 0.0
         for netting, sheet in self.sheets:
-            outline = sheet.size[0] * sheet.size[1]
+            outline = sheet.area(netting.mesh)
             solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
         return solid / area

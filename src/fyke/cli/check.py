@@ -59,7 +59,8 @@ def judge(case: Case) -> dict[str, Any]:
 
     mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each sheet of netting, lengths in m, areas
     in m2, mass_per_area in kg/m2, rtex in tex; strain: largest as built, negative where all bars are slack; rims:
-    diameters (m) of the lower and the upper rim of netting that closes round, None of a flat panel;
+    diameters (m) of the lower and the upper rim of netting that closes round, None of a flat panel; ends: meshes along
+    the upper and the lower edge of one that is cut to shape, else None;
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
@@ -143,6 +144,7 @@ def _panel(
         "netting": next(name for name, spec in case.netting.items() if spec is netting),
         "mesh": netting.mesh_name,
         "meshes": list(panel.meshes),
+        "ends": [len(panel.edge(end)) - 1 for end in ("top", "bottom")] if panel.taper else None,
         "segments": netting.segments,
         "size": list(panel.size),
         "rims": list(sheet.rims) if sheet.rims else None,
@@ -189,12 +191,11 @@ def _words(laws: dict[str, str]) -> str:
 
 
 def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
-    across, down = panel["meshes"]
     width, height = panel["size"]
     e1, e2 = panel["hanging_ratios"]
     state = "taut" if panel["strain"] > 0.0 else "slack"
     return [
-        ("meshes", f"{across} x {down} = {across * down}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
+        ("meshes", f"{_meshes(panel)}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
         *([("bars", f"in {panel['segments']} segments each")] if panel["segments"] > 1 else []),
         *_outline(panel, width, height),
         ("hanging ratios", f"E1 = {e1:.4f}, E2 = {e2:.4f}"),
@@ -212,8 +213,18 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
+def _meshes(panel: dict[str, Any]) -> str:
+    across, down = panel["meshes"]
+    if panel["ends"]:
+        high, low = panel["ends"]
+        return f"{high} above, {low} below, {down} high"
+    return f"{across} x {down} = {across * down}"
+
+
 def _outline(panel: dict[str, Any], width: float, height: float) -> list[tuple[str, str]]:
     area = quantity(panel["outline_area"], "m2")
+    if panel["shape"] == "box":
+        return [("walls", f"{width:.4g} m round, {height:.4g} m deep, {area}")]
     if panel["rims"] is None:
         return [("frame", f"{width:.4g} m x {height:.4g} m, {area}")]
     low, high = panel["rims"]

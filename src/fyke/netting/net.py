@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import End, Taper
 from .hexagon import Hexagon
-from .lattice import Lattice, Mesh, lattice, places
+from .lattice import Corner, Lattice, Mesh, Side, lattice, places
 from .twine import Twine
 
 Array = NDArray[np.float64]
-Side = Literal["top", "bottom", "left", "right"]
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,9 @@ class Panel:
     knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of the knots and bars of
     netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
     hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
-    width (T90).
+    width (T90). Of netting cut to shape: cuts: of the left and the right side, from the wide end on, and the narrow
+    end; meshes and size are those of the wide end. folds: lattice columns of the corners of a box, where its wall is
+    folded.
     """
 
     name: str
@@ -41,6 +43,13 @@ class Panel:
     bars: NDArray[np.int64]
     long_bar: float = 0.0
     turned: bool = False
+    cuts: tuple[str, ...] = ()
+    folds: tuple[int, ...] = ()
+
+    @property
+    def taper(self) -> Taper | None:
+        """How its sides are cut, None where they are straight."""
+        return Taper(self.cuts[0], self.cuts[1], cast(End, self.cuts[2])) if self.cuts else None
 
     @property
     def kind(self) -> Mesh:
@@ -52,7 +61,7 @@ class Panel:
     @property
     def lattice(self) -> Lattice:
         """The lattice of the meshes."""
-        return lattice(self.kind, self.meshes)
+        return lattice(self.kind, self.meshes, self.taper)
 
     @property
     def flat(self) -> Array:
@@ -62,21 +71,29 @@ class Panel:
         at = places(grid, self.kind, self.meshes, self.bar_length, self.size)
         return np.asarray((at - 0.5 * intervals) * (np.array(self.size) / intervals))
 
-    def edge(self, which: Side) -> NDArray[np.int64]:
-        """Knots of the net along an edge, in order from left to right or from below."""
+    def edge(self, which: Side | Corner) -> NDArray[np.int64]:
+        """Knots of the net along an edge, in order from left to right or from below; corners: of a box."""
         grid = self.lattice
-        along, end = {"bottom": (0, 0), "top": (0, 1), "left": (1, 0), "right": (1, 1)}[which]
-        there = np.flatnonzero(grid.knots[:, 1 - along] == end * grid.intervals[1 - along])
-        return self.knots[there[np.argsort(grid.knots[there, along], kind="stable")]]
+        if which in ("top", "bottom", "left", "right"):
+            return self.knots[grid.edge(which)]
+        number = int(which.removeprefix("corner")) - 1
+        if number >= len(self.folds):
+            raise ValueError(f"netting '{self.name}' has no {which}")
+        there = np.flatnonzero(grid.knots[:, 0] == self.folds[number])
+        return self.knots[there[np.argsort(grid.knots[there, 1], kind="stable")]]
 
 
 @dataclass(frozen=True)
 class Rope:
-    """A rope: its knots (k,) in order and its bars (k - 1,)."""
+    """Bars in a row: its knots (k,) in order, the last one the first where it closes, and its bars (k - 1,).
+
+    kind: "rope" along netting, "line" that runs free of it, such as a mooring line, "ring" and "collar" of tubes.
+    """
 
     name: str
     knots: NDArray[np.int64]
     bars: NDArray[np.int64]
+    kind: str = "rope"
 
 
 @dataclass(frozen=True)
@@ -134,6 +151,11 @@ class Net:
     def bar_diameter(self) -> Array:
         """Twine diameter of every bar, (m,) m."""
         return np.array([t.diameter for t in self.twines])[self.twine_of_bar]
+
+    @property
+    def two_way(self) -> NDArray[np.bool_]:
+        """Whether a bar also pushes, as those of tubes do, (m,)."""
+        return np.array([t.compression for t in self.twines], dtype=bool)[self.twine_of_bar]
 
     def at_knots(self, what: Literal["mass", "volume", "drag_area"]) -> Array:
         """Return the mass (kg), volume (m3) or drag area (m2) of the bodies at every knot, (n,)."""

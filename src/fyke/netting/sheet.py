@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import Taper
 from .hexagon import Hexagon
 from .lattice import Edge, Lattice, Mesh, lattice, places, rest_lengths
 from .net import Net, Panel
@@ -46,22 +47,28 @@ def sheet(
     size: tuple[float, float],
     closed: bool = False,
     tip: bool = False,
+    taper: Taper | None = None,
+    folds: tuple[int, ...] = (),
     fixed: Edge = "edges",
     name: str = "",
 ) -> Net:
     """Lay netting of so many meshes along width and height on a surface.
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
-    knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with
-    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
-    "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to a tip.
+    knots is the first; tip: the lowest row is one knot; taper: how its sides are cut, meshes and size being those of
+    the wide end; folds: meshes from the left at which it is folded; fixed: which knots are held. Knots are labelled
+    "i-j", with "name:" before it when there is a name; those within a bar of several segments by the bar's ends and
+    their number, "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to
+    a tip, and for netting both cut and closed.
     """
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
     if hexagon and (tip or (closed and hexagon.turned)):
         raise ValueError(
             "hexagonal netting closes round with its long bars along the height (T0), and has no tip"
         )
-    grid = lattice(netting.mesh, meshes)
+    if taper is not None and (closed or tip):
+        raise ValueError("netting whose sides are cut does not close round by itself: join its sides")
+    grid = lattice(netting.mesh, meshes, taper)
     intervals = np.array(grid.intervals, dtype=float)
     at = places(grid, netting.mesh, meshes, netting.bar_length, size)
     own, knots = _own_knots(grid, closed, tip)
@@ -97,6 +104,8 @@ def sheet(
         bars=np.arange(m).reshape(-1, s)[bars],
         long_bar=hexagon.long_bar * netting.bar_length if hexagon else 0.0,
         turned=hexagon.turned if hexagon else False,
+        cuts=(taper.left, taper.right, taper.narrow) if taper else (),
+        folds=tuple(grid.intervals[0] // meshes[0] * fold for fold in folds),
     )
     rest_length = np.empty(len(ends))
     rest_length[bars] = rest_lengths(grid, netting.mesh, netting.bar_length) / s
