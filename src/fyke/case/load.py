@@ -58,12 +58,12 @@ def parse_case(text: str, where: str = "case", *, path: FilePath | None = None) 
     return checked(_toml(text, where), text, where, path=path)
 
 
-def checked(written: dict[str, Any], text: str, where: str, *, path: FilePath | None) -> Case:
-    """Check the tables of a case as written; text: what they were read from, for the lines of messages.
+def checked(tables: dict[str, Any], text: str, where: str, *, path: FilePath | None) -> Case:
+    """Check the tables of a case; text: what they were read from, for the lines of messages.
 
     Raises CaseError with every problem found.
     """
-    raw = chosen(written)
+    raw = chosen(tables)
     places = Places(where, text)
     problems: dict[Path, Problem] = {}
     meant: set[Path] = set()

@@ -19,8 +19,8 @@ from ..results.whole import replacing
 from ..study.inputs import Study, read_study
 from ..study.uncertainty import DONE as ARRIVED
 from ..study.uncertainty import Ensemble, propagate
+from .load_cases import Wishes
 from .progress import progress_bar
-from .run import Wishes
 from .show import DONE, NOT_CONVERGED, WRONG_INPUT, print_json, print_problems, stderr, stdout
 
 SAMPLES, FIGURES = "samples.csv", "uncertainty.json"
