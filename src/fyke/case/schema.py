@@ -18,6 +18,7 @@ from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
@@ -97,6 +98,7 @@ Gear = Annotated[
     | ConeSpec
     | FrustumSpec
     | BoxSpec
+    | SeamSpec
     | RopeSpec
     | SinkersSpec
     | FloatsSpec,
@@ -218,6 +220,11 @@ class Case(Table):
     def pieces(self) -> tuple[Piece, ...]:
         """The gear that is netting."""
         return tuple(part for part in self.gear if isinstance(part, Piece))
+
+    @property
+    def seams(self) -> tuple[SeamSpec, ...]:
+        """The gear that is seams."""
+        return tuple(part for part in self.gear if isinstance(part, SeamSpec))
 
     @property
     def ropes(self) -> tuple[RopeSpec, ...]:
