@@ -17,6 +17,7 @@ from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, reference
 from .keys import nearest
+from .motion_check import motion_file_problems, motion_findings
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
@@ -149,6 +150,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _waves(parts)
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
+    yield from motion_findings(parts, _valid(DynamicSolve, parts.raw.get("solve")))
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -160,6 +162,7 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
     ):
         for number, problem in enumerate(problems):
             yield (*key, number), problem
+    yield from motion_file_problems(parts)
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:

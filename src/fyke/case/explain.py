@@ -85,7 +85,7 @@ def _alternatives(choices: list[str]) -> str:
 
 def _table(detail: ErrorDetails, spot: Spot) -> Words:
     dotted = ".".join(str(step) for step in spot.path)
-    name = "[[gear]]" if spot.path[0] == "gear" else f"[{dotted}]"
+    name = f"[[{spot.path[0]}]]" if spot.path[0] in ("gear", "motion") else f"[{dotted}]"
     return (
         written(detail["input"]),
         f"a table: {spot.meaning}",
@@ -97,6 +97,8 @@ def _list(detail: ErrorDetails, spot: Spot) -> Words:
     value = detail["input"]
     if spot.path[0] == "gear" and len(spot.path) == 1:
         return written(value), "one table [[gear]] for every panel", "write [[gear]], with double brackets"
+    if spot.path[0] == "motion" and len(spot.path) == 1:
+        return written(value), "tables [[motion]]", "write [[motion]], with double brackets"
     samples = spot.field.examples if spot.field else None
     name = next((str(step) for step in reversed(spot.path) if isinstance(step, str)), "")
     cure = f"write for example {assignment(name, samples[0])}" if samples else "give all values in one list"

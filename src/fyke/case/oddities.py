@@ -8,6 +8,7 @@ import numpy as np
 
 from ..netting.lattice import hanging_ratios
 from .gear import LARGEST_STRAIN
+from .motion_check import motion_oddities
 from .schema import Case
 from .water_check import current_oddities
 from .waves import wave_oddities
@@ -28,6 +29,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_sheltered_twice(case),
         *_above_water(case),
         *current_oddities(case),
+        *motion_oddities(case),
     )
 
 

@@ -13,7 +13,7 @@ _HEADER = re.compile(rf"\s*(\[\[?)\s*({_DOTTED})\s*\]\]?\s*(?:#.*)?")
 _ASSIGNMENT = re.compile(rf"\s*({_DOTTED})\s*=(.*)")
 _STRING_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*')
 _TRIPLE = re.compile("\"\"\"|'''")
-_NAMED = ("material", "twine", "netting", "gear")  # tables whose second step is a name or a number
+_NAMED = ("material", "twine", "netting", "gear", "motion")  # tables whose second step is a name or a number
 
 
 class Places:
@@ -44,8 +44,8 @@ def key_name(path: Path) -> str:
     if len(path) == 1:
         return str(path[0])
     depth = 2 if path[0] in _NAMED else 1
-    if path[0] == "gear":
-        table = f"[[gear]] {int(path[1]) + 1}"
+    if path[0] in ("gear", "motion"):
+        table = f"[[{path[0]}]] {int(path[1]) + 1}"
     else:
         table = "[" + ".".join(str(step) for step in path[:depth]) + "]"
     keys = ".".join(step for step in path[depth:] if isinstance(step, str))
