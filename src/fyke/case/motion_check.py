@@ -208,6 +208,8 @@ def _unknown(path: Path, name: str, names: list[str], nets: list[Net]) -> Findin
     allowed = "NAME.EDGE of netting, the label of a knot, or the name of gear: " + (
         ", ".join(written(one) for one in names if one) or "leave of out for all held knots"
     )
+    if ":" in name and name.partition(":")[0] in names:
+        return path, written(name), allowed, "choose a knot that is there; knots.csv of a run lists them"
     near = nearest(name, [*(one for one in names if one), *_held_edges(nets)])
     cure = (
         f'did you mean "{near}"?'

@@ -121,6 +121,17 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # buoyancy = "5 N"                   # lift of each one under water, with its density
 # density = 200.0
 
+# Held knots that move, in a dynamic case; several [[motion]] of the same knots add up:
+# [[motion]]
+# of = ["cage.top"]                  # NAME.EDGE, labels of knots, names of gear; all held knots by default
+# velocity = [-0.5, 0.0, 0.0]        # m/s, of a tow
+# amplitude = [0.0, 0.0, 0.5]        # m, of a swing, amplitude x sin(2 pi t / period + phase)
+# period = "6 s"
+# phase = "0 deg"
+# rotation = { axis = [0, 1, 0], point = [0, 0, 0], amplitude = "5 deg", period = "6 s" }   # or rate = "10 deg/s"
+# file = "motion.csv"                # columns time,dx,dy,dz (s, m), time,roll,pitch,yaw (deg) or all of them
+# ramp = "2 s"                       # smooth start
+
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
 knots = { law = "constant", drag = 1.0 }                       # on pi d^2 / 4
@@ -160,6 +171,14 @@ kind = "static"                      # static | dynamic
 [output]
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
 # probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
+
+# [[load_case]]                      # the same gear in other water: one table, folder and row of loads.csv for each
+# name = "50 years"
+# current = { speed = 0.9, direction = "0 deg" }     # with the keys of [current], in its place
+# waves = { kind = "jonswap", significant_height = 2.5, peak_period = "7 s" }        # in place of [waves]
+# load_factor = 1.3                  # of the utilisation of breaking strengths, as material_factor is
+# material_factor = 1.5
+# By chosen_load_case at the top of the file, the name of one, that one is run alone.
 
 # [compare]                          # measured positions to lay over the result
 # positions = "measured.csv"         # beside this file; columns knot,x,y,z (m), knot as "row-column"

@@ -31,7 +31,9 @@ def seen_from_the_carriage(system: System) -> System:
                 speeds[move.knots] += shift.rate
     held = speeds[system.net.fixed]
     if np.ptp(held, axis=0).any():
-        raise ValueError("held knots are towed at different velocities, or only some of them: there is no equilibrium")
+        raise ValueError(
+            "held knots are towed at different velocities, or only some of them: there is no equilibrium"
+        )
     rest = [
         replace(move, shifts=tuple(one for one in move.shifts if not isinstance(one, Steady)))
         for move in motion.moves
