@@ -20,6 +20,7 @@ from .load_case import LoadCaseSpec
 from .motion import MotionSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
@@ -99,6 +100,7 @@ Gear = Annotated[
     | ConeSpec
     | FrustumSpec
     | BoxSpec
+    | SeamSpec
     | RopeSpec
     | SinkersSpec
     | FloatsSpec,
@@ -229,6 +231,11 @@ class Case(Table):
     def pieces(self) -> tuple[Piece, ...]:
         """The gear that is netting."""
         return tuple(part for part in self.gear if isinstance(part, Piece))
+
+    @property
+    def seams(self) -> tuple[SeamSpec, ...]:
+        """The gear that is seams."""
+        return tuple(part for part in self.gear if isinstance(part, SeamSpec))
 
     @property
     def ropes(self) -> tuple[RopeSpec, ...]:

@@ -21,7 +21,7 @@ from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from ..water.wakes import GivenWake
-from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of
+from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of, seam_rows, seams_of
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -65,8 +65,9 @@ def judge(case: Case) -> dict[str, Any]:
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats and sinkers, one table each kind, mass (kg),
-    diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one, total_weight of all.
+    seams: one table each, knots of both edges; ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats
+    and sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N, negative floats) and drag_area (m2)
+    of each one, total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -99,6 +100,7 @@ def judge(case: Case) -> dict[str, Any]:
             _panel(case, system, panel, made, *numbers)
             for panel, made in zip(net.panels, case.sheets, strict=True)
         ],
+        "seams": seams_of(case),
         "ropes": ropes_of(case, system),
         "bodies": bodies_of(case, system),
         "warnings": [*case.warnings, *outside.warnings],
@@ -203,6 +205,8 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     for panel in findings["panels"]:
         name = f"{panel['shape']} {panel['name']}".rstrip()
         print_rows(console, f"{name}: {panel['mesh']} netting '{panel['netting']}'", _panel_rows(panel))
+    for seam in findings["seams"]:
+        print_rows(console, f"seam {seam['name']}", seam_rows(seam))
     for rope in findings["ropes"]:
         print_rows(console, f"rope {rope['name']}: twine '{rope['twine']}'", rope_rows(rope))
     for bodies in findings["bodies"]:

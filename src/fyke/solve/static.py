@@ -26,6 +26,7 @@ from .equilibrium import Equilibrium
 from .far_field import Far
 from .held_shelter import by_renewals
 from .linear import Factorizer, SingularMatrixError
+from .modes import stability_warnings
 from .near_field import Near
 from .nested import Nested, nested_start
 from .outcome import Outcome, Verdict, out_of_memory
@@ -122,7 +123,8 @@ def solve_static(
         factorizations=s.factorizations,
         residual=frame.unbalanced_force,
         wall_time=time.perf_counter() - began,
-        warnings=strain_warnings(system.net, [frame]),
+        warnings=strain_warnings(system.net, [frame])
+        + (stability_warnings(system, state.position) if name == "converged" else ()),
     )
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 
