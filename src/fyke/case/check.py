@@ -18,6 +18,7 @@ from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, has_bottom, reference
 from .keys import nearest
 from .load_case import load_case_file_problems, load_case_findings
+from .motion_check import motion_file_problems, motion_findings
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
@@ -161,6 +162,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
     yield from _load_cases(parts)
+    yield from motion_findings(parts, _valid(DynamicSolve, parts.raw.get("solve")))
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -173,6 +175,7 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
         for number, problem in enumerate(problems):
             yield (*key, number), problem
     yield from load_case_file_problems(parts)
+    yield from motion_file_problems(parts)
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:

@@ -11,6 +11,7 @@ from ..netting.joining import stitches
 from ..netting.lattice import Corner, Side, hanging_ratios
 from ..netting.together import together
 from .gear import LARGEST_STRAIN
+from .motion_check import motion_oddities
 from .schema import Case
 from .water_check import current_oddities
 from .waves import wave_oddities
@@ -32,6 +33,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_sheltered_twice(case),
         *_above_water(case),
         *current_oddities(case),
+        *motion_oddities(case),
     )
 
 

@@ -17,6 +17,7 @@ from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .load_case import LoadCaseSpec
+from .motion import MotionSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .seams import SeamSpec
@@ -158,6 +159,7 @@ class Case(Table):
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
         description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
     )
+    motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
     shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
@@ -186,6 +188,8 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        for motion in self.motion:
+            motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property

@@ -15,6 +15,7 @@ from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Panel
 from ..results.ranges import bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
+from ..system.carriage import seen_from_the_carriage
 from ..system.system import System
 from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
@@ -74,8 +75,7 @@ def judge(case: Case) -> dict[str, Any]:
     system = build_system(net, case)
     measures, viscosity = measure_net(net), system.water.kinematic_viscosity
     steady = replace(
-        system,
-        current=at_full_strength(system.current),
+        _from_the_carriage(system),
         waves=None,
         coefficients=replace(system.coefficients, wake=None, twines=None),
     )
@@ -93,6 +93,7 @@ def judge(case: Case) -> dict[str, Any]:
         "current": list(case.current.at_surface),
         "current_words": case.current.described,
         "waves": case.waves.described if case.waves else None,
+        "motion": _motions(case, system),
         "drag": _drag(system),
         "shelter": _shelter(system),
         "panels": [
@@ -106,6 +107,24 @@ def judge(case: Case) -> dict[str, Any]:
         "out_of_range": outside.counts,
         "case_sha256": case.sha256,
     }
+
+
+def _from_the_carriage(system: System) -> System:
+    """Return a towed system as it is seen from the carriage, where one carriage tows it."""
+    full = replace(system, current=at_full_strength(system.current))
+    try:
+        return seen_from_the_carriage(full)
+    except ValueError:
+        return full
+
+
+def _motions(case: Case, system: System) -> list[dict[str, Any]]:
+    """Return how many knots each motion moves, of what, and how."""
+    moves = system.motion.moves if system.motion else ()
+    return [
+        {"of": list(spec.of) if spec.of else None, "knots": len(move.knots), "words": spec.described}
+        for spec, move in zip(case.motion, moves, strict=False)
+    ]
 
 
 def _drag(system: System) -> dict[str, str]:
@@ -168,6 +187,13 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         ("solve", findings["solve"]),
         ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
         *([("waves", findings["waves"])] if findings["waves"] else []),
+        *(
+            (
+                "motion",
+                f"{', '.join(one['of'] or ['all that is held'])} ({one['knots']} knots): {one['words']}",
+            )
+            for one in findings["motion"]
+        ),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
         ("drag", _words(findings["drag"])),
