@@ -55,4 +55,6 @@ def _places(net: Net, bodies: BodiesSpec) -> Indices:
     if np.all(knots == knots[0]):
         return knots[:1]  # the tip of a cone
     closed = panel.closed and side in ("top", "bottom")
-    return evenly(knots, bodies.count or len(knots) - closed, closed=closed)
+    length = float(np.linalg.norm(np.diff(net.positions[knots], axis=0), axis=1).sum())
+    there = len(knots) - closed
+    return evenly(knots, min(bodies.many(there, length, closed=closed), there), closed=closed)
