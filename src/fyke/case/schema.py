@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
+from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .current import Current
@@ -19,6 +20,7 @@ from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
+from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -88,7 +90,15 @@ class DynamicSolve(Table):
 
 
 Gear = Annotated[
-    PanelSpec | CylinderSpec | ConeSpec | FrustumSpec | RopeSpec | SinkersSpec | FloatsSpec,
+    PanelSpec
+    | CylinderSpec
+    | ConeSpec
+    | FrustumSpec
+    | RopeSpec
+    | RingSpec
+    | CollarSpec
+    | SinkersSpec
+    | FloatsSpec,
     Field(discriminator="kind"),
 ]
 
@@ -138,11 +148,14 @@ class Case(Table):
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
+    tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
+        default={}, description="tubes by name"
+    )
     netting: Annotated[
         dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
     ] = Field(description="nettings by name")
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, sinkers and floats, one [[gear]] each"
     )
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
@@ -199,6 +212,12 @@ class Case(Table):
         return {name: spec.twine(name) for name, spec in self.twine.items()}
 
     @property
+    def tubes(self) -> dict[str, Tube]:
+        """The tubes of rings and collars, by name."""
+        own = {name: spec.material(name) for name, spec in self.material.items()}
+        return {name: spec.tube(own) for name, spec in self.tube.items()}
+
+    @property
     def folder(self) -> Path:
         """The folder that file names count from: of the case file, the present one for a text."""
         return self._path.parent if self._path else Path()
@@ -212,6 +231,11 @@ class Case(Table):
     def ropes(self) -> tuple[RopeSpec, ...]:
         """The gear that is ropes."""
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def tubulars(self) -> tuple[TubularSpec, ...]:
+        """The gear that is made of tubes."""
+        return tuple(part for part in self.gear if isinstance(part, TubularSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:

@@ -66,6 +66,16 @@ youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # loss_factor = 0.02                 # tan delta, from which twine damping comes
 # source = "data sheet of the maker"
 
+# [tube.pipe]                        # of rings and collars
+# material = "HDPE"                  # HDPE, steel or your own: density, modulus, yield stress where you give none
+# diameter = "315 mm"                # outer
+# wall = "17.9 mm"
+# contents = "air"                   # air | water
+# density = 958.0                    # kg/m3, of the wall
+# youngs_modulus = "900 MPa"
+# mass_per_length = "18 kg/m"        # with what is fitted to it; that of the wall by default
+# yield_stress = "26 MPa"            # which the largest stress is compared with
+
 [netting.main]                       # any number of nettings, each with a name
 twine = "main"
 mesh = "diamond"                     # diamond | square | hexagonal
@@ -106,6 +116,22 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "main"
 # along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
 # length = "2.5 m"                   # unloaded, that of the edge by default
+# [[gear]]
+# kind = "ring"                      # such as a sinker tube
+# name = "sinker tube"
+# tube = "pipe"
+# tubes = 1                          # side by side
+# rigid = false                      # true: it keeps its shape
+# along = "cage.bottom"              # or, instead of it, a ring of its own:
+# diameter = "25 m"
+# centre = [0.0, 0.0, -15.0]
+# knots = 48
+# [[gear]]
+# kind = "collar"                    # floats, and sets the edge free
+# name = "collar"
+# tube = "pipe"
+# tubes = 2
+# along = "cage.top"
 # [[gear]]
 # kind = "sinkers"
 # name = "weights"

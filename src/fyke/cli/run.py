@@ -46,6 +46,7 @@ from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
+from ..system.hanging import hanging
 from ..system.system import System
 from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
 from .progress import progress_bar
@@ -232,7 +233,10 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
-    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
+    held = hanging(system, static=case.solve.kind == "static")
+    figures["warnings"] = list(
+        dict.fromkeys([*case.warnings, *held, *result.outcome.warnings, *outside.warnings])
+    )
     figures["out_of_range"] = outside.counts
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
