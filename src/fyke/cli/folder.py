@@ -15,7 +15,7 @@ from ..results import CheckpointError, ResultError, frame_bytes, frames_of, load
 from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
-PARTS, WAVES = "parts.csv", "waves.csv"
+PARTS, RINGS, WAVES = "parts.csv", "rings.csv", "waves.csv"
 CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
 PICTURES = (

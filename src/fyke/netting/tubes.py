@@ -128,7 +128,7 @@ class Tube:
             compression=True,
             bending_stiffness=modulus * self.second_moment,
             wall=self.wall,
-            yield_stress=None if self.rigid else self.yield_stress,
+            yield_stress=self.yield_stress,
         )
 
 
