@@ -77,7 +77,7 @@ def _memory() -> float:
 
 def _clear(folder: Path) -> None:
     pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
-    for name in (RESULT, SUMMARY, KNOTS, BARS, PARTS, WAVES, CHECKPOINT, *pictures):
+    for name in (RESULT, SUMMARY, KNOTS, BARS, PARTS, RINGS, WAVES, CHECKPOINT, *pictures):
         (folder / name).unlink(missing_ok=True)
 
 
