@@ -41,6 +41,7 @@ def with_rope(net: Net, knots: ArrayLike, twine: Twine, *, length: float | None 
         rest_length=np.concatenate([net.rest_length, apart * (1.0 if length is None else length / whole)]),
         twines=tuple(twines),
         twine_of_bar=np.concatenate([net.twine_of_bar, np.full(len(ends), twines.index(twine))]),
+        bar_multiple=np.concatenate([net.bar_multiple, np.ones(len(ends))]),
         ropes=(*net.ropes, Rope(name, path, np.arange(m, m + len(ends)))),
     )
 
