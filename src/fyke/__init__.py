@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .netting.line import line
     from .netting.net import Net
     from .netting.panel import panel
+    from .netting.tubes import Tube
     from .netting.twine import Twine
     from .results import load, save
     from .solve.auto import Auto
@@ -52,6 +53,7 @@ _HOME = {
     "Symplectic": "solve.symplectic",
     "System": "system.system",
     "TableLaw": "netting.elastic",
+    "Tube": "netting.tubes",
     "Twine": "netting.twine",
     "Verner": "solve.verner",
     "Water": "system.laws",
@@ -90,6 +92,7 @@ __all__ = [
     "Symplectic",
     "System",
     "TableLaw",
+    "Tube",
     "Twine",
     "Verner",
     "Water",

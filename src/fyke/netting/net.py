@@ -93,11 +93,15 @@ class Panel:
 
 @dataclass(frozen=True)
 class Rope:
-    """A rope: its knots (k,) in order and its bars (k - 1,)."""
+    """Bars in a row: its knots (k,) in order, the last one the first where it closes, and its bars (k - 1,).
+
+    kind: "rope", or what else it is: "ring" and "collar" of tubes.
+    """
 
     name: str
     knots: NDArray[np.int64]
     bars: NDArray[np.int64]
+    kind: str = "rope"
 
 
 @dataclass(frozen=True)

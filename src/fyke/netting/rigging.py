@@ -18,21 +18,29 @@ Indices = NDArray[np.int64]
 SPHERE_DRAG = 0.47
 
 
-def with_rope(net: Net, knots: ArrayLike, twine: Twine, *, length: float | None = None, name: str) -> Net:
-    """Return the net with a rope through some of its knots, one bar from each to the next.
+def with_rope(
+    net: Net,
+    knots: ArrayLike,
+    twine: Twine,
+    *,
+    length: float | None = None,
+    name: str,
+    kind: str = "rope",
+) -> Net:
+    """Return the net with a rope or a tube through some of its knots, one bar from each to the next.
 
     knots: (k,) of the net, in order, the last may be the first; twine: what the rope is made of; length: unloaded, m,
-    shared among its bars as they are long; that of the net as built when None. ValueError for fewer than two knots and
-    a rope without length.
+    shared among its bars as they are long; that of the net as built when None; kind: as of Rope. ValueError for fewer
+    than two knots and a rope without length.
     """
     path = np.asarray(knots, dtype=np.int64)
     ends = np.column_stack([path[:-1], path[1:]])
     apart = np.linalg.norm(net.positions[ends[:, 1]] - net.positions[ends[:, 0]], axis=1)
     whole = float(apart.sum())
     if not len(ends) or not whole > 0.0:
-        raise ValueError(f"rope '{name}' needs two knots or more that lie apart")
+        raise ValueError(f"{kind} '{name}' needs two knots or more that lie apart")
     if not apart.all():
-        raise ValueError(f"rope '{name}' passes the same place twice in a row")
+        raise ValueError(f"{kind} '{name}' passes the same place twice in a row")
     twines = list(dict.fromkeys((*net.twines, twine)))
     m = net.bar_count
     return replace(
@@ -41,8 +49,7 @@ def with_rope(net: Net, knots: ArrayLike, twine: Twine, *, length: float | None 
         rest_length=np.concatenate([net.rest_length, apart * (1.0 if length is None else length / whole)]),
         twines=tuple(twines),
         twine_of_bar=np.concatenate([net.twine_of_bar, np.full(len(ends), twines.index(twine))]),
-        bar_multiple=np.concatenate([net.bar_multiple, np.ones(len(ends))]),
-        ropes=(*net.ropes, Rope(name, path, np.arange(m, m + len(ends)))),
+        ropes=(*net.ropes, Rope(name, path, np.arange(m, m + len(ends)), kind)),
     )
 
 

@@ -87,7 +87,7 @@ def _pieces(net: Net) -> list[_Piece]:
     pieces = [
         _Piece(one.shape, one.name, np.unique(net.bars[one.bars]), _once(one.bars)) for one in net.panels
     ]
-    pieces += [_Piece("rope", one.name, np.unique(one.knots), one.bars[:, None]) for one in net.ropes]
+    pieces += [_Piece(one.kind, one.name, np.unique(one.knots), one.bars[:, None]) for one in net.ropes]
     free, bare = np.ones(net.bar_count, dtype=bool), np.ones(net.knot_count, dtype=bool)
     for piece in pieces:
         free[piece.chains], bare[piece.knots] = False, False
