@@ -9,8 +9,10 @@ from .version import __version__
 
 if TYPE_CHECKING:
     from .case import Case, CaseError, load_case, parse_case
+    from .netting.chain import chain
     from .netting.elastic import LinearLaw, PowerLaw, QuadraticLaw, TableLaw
     from .netting.line import line
+    from .netting.lines import LinePiece, with_line
     from .netting.net import Net
     from .netting.panel import panel
     from .netting.tubes import Tube
@@ -40,6 +42,7 @@ _HOME = {
     "ConstantBar": "water.laws.bars",
     "ConstantKnot": "water.laws.knots",
     "Implicit": "solve.implicit",
+    "LinePiece": "netting.lines",
     "LinearLaw": "netting.elastic",
     "Modes": "solve.modes",
     "Net": "netting.net",
@@ -59,6 +62,7 @@ _HOME = {
     "Water": "system.laws",
     "build_net": "system.build",
     "build_system": "system.build",
+    "chain": "netting.chain",
     "line": "netting.line",
     "load": "results",
     "load_case": "case",
@@ -69,6 +73,7 @@ _HOME = {
     "save": "results",
     "simulate": "solve.dynamic",
     "solve_static": "solve.static",
+    "with_line": "netting.lines",
 }
 
 __all__ = [
@@ -79,6 +84,7 @@ __all__ = [
     "ConstantBar",
     "ConstantKnot",
     "Implicit",
+    "LinePiece",
     "LinearLaw",
     "Modes",
     "Net",
@@ -99,6 +105,7 @@ __all__ = [
     "__version__",
     "build_net",
     "build_system",
+    "chain",
     "line",
     "load",
     "load_case",
@@ -109,6 +116,7 @@ __all__ = [
     "save",
     "simulate",
     "solve_static",
+    "with_line",
 ]
 
 

@@ -95,7 +95,7 @@ class Panel:
 class Rope:
     """Bars in a row: its knots (k,) in order, the last one the first where it closes, and its bars (k - 1,).
 
-    kind: "rope", or what else it is: "ring" and "collar" of tubes.
+    kind: "rope" along netting, "line" that runs free of it, such as a mooring line, "ring" and "collar" of tubes.
     """
 
     name: str
