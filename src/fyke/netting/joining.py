@@ -13,10 +13,11 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
+def joined(net: Net, stays: ArrayLike, goes: ArrayLike, shared: ArrayLike = 1.0) -> Net:
     """Return the net in which every knot of `goes` has become the knot of `stays` at the same place of the list.
 
-    stays, goes: (k,) knots of the net. Bars, panels, ropes and bodies of a knot that goes are those of the one that
+    stays, goes: (k,) knots of the net; shared: (k,) or one for all, how many real knots become one with others in each
+    pair: of grouped netting as many as Panel.real_along says of the edge. Bars, panels, ropes and bodies of a knot that goes are those of the one that
     stays, which keeps its place and takes the larger diameter; it is held when one of the two was. ValueError when the
     lists differ in length or a knot goes to two places.
     """
@@ -37,6 +38,9 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
     fixed, thick = np.zeros(len(left), dtype=bool), np.zeros(len(left))
     np.logical_or.at(fixed, place, net.fixed)
     np.maximum.at(thick, place, net.knot_diameter)
+    many = np.zeros(len(left))
+    np.add.at(many, place, net.knot_multiple)
+    np.subtract.at(many, place[leave], np.broadcast_to(np.asarray(shared, dtype=float), leave.shape))
     load = np.zeros((len(left), 3))
     np.add.at(load, place, net.load)
     return replace(
@@ -48,6 +52,7 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
         knot_diameter=thick,
         knot_density=net.knot_density[left],
         load=load,
+        knot_multiple=many,
         panels=tuple(replace(one, knots=place[one.knots]) for one in net.panels),
         ropes=tuple(replace(one, knots=place[one.knots]) for one in net.ropes),
         bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),

@@ -25,7 +25,8 @@ class Panel:
     knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of the knots and bars of
     netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
     hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
-    width (T90).
+    width (T90). Of grouped netting meshes, knots and bars are those that it is laid with, and grouped_from: the meshes
+    of the real netting, whose bar_length and knot_diameter these are; None where each mesh stands for itself.
     """
 
     name: str
@@ -41,6 +42,18 @@ class Panel:
     bars: NDArray[np.int64]
     long_bar: float = 0.0
     turned: bool = False
+    grouped_from: tuple[int, int] | None = None
+
+    @property
+    def real_meshes(self) -> tuple[int, int]:
+        """Meshes of the real netting along width and height."""
+        return self.grouped_from or self.meshes
+
+    @property
+    def group(self) -> tuple[float, float]:
+        """How many real meshes one of the net stands for along width and height."""
+        real = self.real_meshes
+        return real[0] / self.meshes[0], real[1] / self.meshes[1]
 
     @property
     def kind(self) -> Mesh:
@@ -68,6 +81,14 @@ class Panel:
         along, end = {"bottom": (0, 0), "top": (0, 1), "left": (1, 0), "right": (1, 1)}[which]
         there = np.flatnonzero(grid.knots[:, 1 - along] == end * grid.intervals[1 - along])
         return self.knots[there[np.argsort(grid.knots[there, along], kind="stable")]]
+
+    def real_along(self, which: Side) -> Array:
+        """How many real knots of an edge each of its knots stands for, in the order of edge()."""
+        along = 0 if which in ("top", "bottom") else 1
+        many = np.full(len(self.edge(which)), self.group[along])
+        if not (self.closed and along == 0):
+            many[[0, -1]] = 0.5 * (self.group[along] + 1.0)
+        return many
 
 
 @dataclass(frozen=True)
@@ -99,6 +120,10 @@ class Bodies:
     diameter: float
 
 
+def _single() -> Array:
+    return np.empty(0)
+
+
 @dataclass(frozen=True)
 class Net:
     """n knots joined by m bars.
@@ -107,7 +132,9 @@ class Net:
     bars: (m, 2) knot indices; rest_length: (m,) m, unloaded; twines: the twines in use; twine_of_bar: (m,) index
     into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot
     on top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
-    sinkers in it, each may be empty.
+    sinkers in it, each may be empty; bar_multiple: (m,) how many real bars side by side a bar stands for, knot_multiple:
+    (n,) how many real knots a knot, see netting.multiples; what is missing at their ends is 1. Diameters and twines are
+    those of the real bar and knot.
     """
 
     positions: Array
@@ -123,6 +150,17 @@ class Net:
     panels: tuple[Panel, ...] = field(default=())
     ropes: tuple[Rope, ...] = field(default=())
     bodies: tuple[Bodies, ...] = field(default=())
+    bar_multiple: Array = field(default_factory=_single)
+    knot_multiple: Array = field(default_factory=_single)
+
+    def __post_init__(self) -> None:
+        """Fill up the multiples; ValueError for more of them than there are bars or knots."""
+        for name, count in (("bar_multiple", self.bar_count), ("knot_multiple", self.knot_count)):
+            given = getattr(self, name)
+            if len(given) > count:
+                raise ValueError(f"{name} has {len(given)} numbers for {count}")
+            if len(given) < count:
+                object.__setattr__(self, name, np.concatenate([given, np.ones(count - len(given))]))
 
     @property
     def knot_count(self) -> int:

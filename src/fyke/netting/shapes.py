@@ -96,4 +96,5 @@ def cage(
     )
     whole = together([wall, floor])
     above, below = whole.panels
-    return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))
+    rims = seam(above.edge("bottom"), below.edge("top"), closed=True)
+    return joined(whole, *rims, above.real_along("bottom")[:-1])

@@ -145,7 +145,7 @@ def forces_on_knots(system: System, frame: Frame) -> Array:
     """Water, weight, dead load, parts and tensions on every knot, (n, 3) N; what a held knot hands to its support."""
     el = system.elements
     t, _ = _directions(frame, el)
-    pull = frame.tension[:, None] * t
+    pull = (system.net.bar_multiple * frame.tension)[:, None] * t
     total = frame.water_force + el.weight + _of_parts(system, frame)
     np.add.at(total, el.knot_a, pull)
     np.subtract.at(total, el.knot_b, pull)
@@ -195,14 +195,14 @@ def _viscous(el: Elements, length: Array, rate: Array) -> Array:
     return np.where(length > el.rest_length, damped - f, 0.0)
 
 
-def _elastic_length(el: Elements, frame: Frame) -> Array:
-    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's tension.
+def _elastic_length(el: Elements, frame: Frame, pull: Array) -> Array:
+    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's pull (m,) N.
 
     An implicit method knows tensions better than the law does from its positions, which stretch stiff bars falsely.
     """
     t, length = _directions(frame, el)
     rate = np.einsum("eq,eq->e", frame.velocity[el.knot_b] - frame.velocity[el.knot_a], t)
-    tension = np.maximum(frame.tension - _viscous(el, length, rate), 0.0)
+    tension = np.maximum(pull - _viscous(el, length, rate), 0.0)
     row = el.law_first.astype(np.int64)
     last = el.law_end.astype(np.int64) - 1
     while np.any(further := (row < last) & (tension >= el.law_rows[np.minimum(row + 1, last), 1])):
@@ -271,7 +271,10 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
     powers = np.array([_powers(system, result.frame(k)) for k in range(len(result.time))])
     current, drag, twine, turning, inertia, parts = np.trapezoid(powers, result.time, axis=0).tolist()
     kinetic = float(last.kinetic_energy - first.kinetic_energy)
-    stored = [elastic_energy(el, _elastic_length(el, frame)) for frame in (first, last)]
+    stored = [
+        elastic_energy(el, _elastic_length(el, frame, system.net.bar_multiple * frame.tension))
+        for frame in (first, last)
+    ]
     stretching = float(np.sum(stored[1] - stored[0]))
     potential = -float(np.sum(el.weight * (last.position - first.position)))
     return EnergyBudget(

@@ -91,8 +91,8 @@ def make_system(
     c = coefficients or Coefficients()
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
-    volume = area * net.rest_length
-    knot_volume = np.pi / 6.0 * net.knot_diameter**3
+    volume = net.bar_multiple * area * net.rest_length
+    knot_volume = net.knot_multiple * np.pi / 6.0 * net.knot_diameter**3
     body_mass, body_volume = net.at_knots("mass"), net.at_knots("volume")
     mass = _to_knots(net, density * volume) + net.knot_density * knot_volume + body_mass
     sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
@@ -101,7 +101,7 @@ def make_system(
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
-    linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
+    linear = bool(np.all(rows[:, 3] == 0.0) and np.all(end - first == 1))
     knot_mass = mass + c.added_mass_knot * w.density * knot_volume
     damping = _retardation(net, ringing(net, stiffness, knot_mass))
     drag, drag_laws = _drag(net, w, c)
@@ -141,7 +141,8 @@ def make_system(
 
 def _drag(net: Net, w: Water, c: Coefficients) -> tuple[dict[str, Array], DragLaws | None]:
     """Fields of Elements that say how the water drags, and the laws that change them."""
-    scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
+    scale = 0.25 * w.density * net.bar_multiple * net.bar_diameter
+    disc = 0.5 * w.density * net.knot_multiple * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
             scale[panel.bars] = 0.0
@@ -285,14 +286,21 @@ def _to_knots(net: Net, per_bar: Array) -> Array:
 
 
 def _laws(net: Net) -> tuple[Array, NDArray[np.int32], NDArray[np.int32], Array]:
-    """Rows of all twines' laws, first and end row of every bar, and stiffness (N/m) of every bar."""
-    tables = [t.law.rows(t.diameter) for t in net.twines]
-    end = np.cumsum([len(t) for t in tables])
+    """Rows of all laws, first and end row of every bar, and stiffness (N/m) of every bar.
+
+    One law for every twine and every number of bars side by side, whose tensions add up.
+    """
+    kinds, which = np.unique(
+        np.column_stack([net.twine_of_bar, net.bar_multiple]), axis=0, return_inverse=True
+    )
+    which = which.ravel()
+    own = [t.law.rows(t.diameter) for t in net.twines]
+    tables = [own[int(twine)] * np.array([1.0, many, many, many, 1.0]) for twine, many in kinds]
+    end = np.cumsum([len(t) for t in tables], dtype=np.int64)
     first = end - [len(t) for t in tables]
     secant = np.array([_tension(t, REFERENCE_STRAIN) / REFERENCE_STRAIN for t in tables])
-    which = net.twine_of_bar
     return (
-        np.concatenate(tables),
+        np.concatenate([np.empty((0, 5)), *tables]),
         first[which].astype(np.int32),
         end[which].astype(np.int32),
         secant[which] / net.rest_length,
