@@ -22,6 +22,7 @@ from ..forces.surroundings import Surroundings
 from ..system.system import State, System
 from .equilibrium import typical_tension
 from .linear import SingularMatrixError
+from .smooth import begin_smooth
 from .step_newton import Ahead, StepNewton
 from .stepper import Count, Memory, Status
 
@@ -136,8 +137,7 @@ class ImplicitRun:
         mu = (SMOOTHING * self.tension_scale) ** 2
         self.newton = StepNewton(self.surroundings, self.u, mu, self.tension_scale)
         self.linear_solver = self.newton.linear.name
-        self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * mu))
-        self.w = self.T - f
+        self.T, self.w = begin_smooth(f, mu, el)
         self.before = (self.time, self.x, self.v, self._tension())
         self.tolerance = method.atol + method.rtol * float(el.rest_length.min(initial=1.0))
         self.step = self._first_step()
@@ -195,7 +195,7 @@ class ImplicitRun:
 
     def _tension(self) -> Array:
         """Tension of every bar, (m,) N, without what the smoothing leaves on slack ones."""
-        return np.where(self.T > self.w, self.T, 0.0)
+        return np.where(self.el.two_way | (self.T > self.w), self.T, 0.0)
 
     def _step_once(self) -> Status:
         """One accepted step."""
@@ -234,7 +234,7 @@ class ImplicitRun:
         found, el = self.newton, self.el
         free = found.pattern.free
         drifting = np.ones(len(self.x), dtype=bool)
-        taut = (self.T > self.w) | (found.T > found.w)
+        taut = el.two_way | (self.T > self.w) | (found.T > found.w)
         drifting[el.knot_a[taut]] = drifting[el.knot_b[taut]] = False
         square = ((found.a - self.a)[free] ** 2).sum(axis=1)
         alone = square[drifting[free]]
@@ -256,7 +256,7 @@ class ImplicitRun:
         newton.begin(
             self.method.ahead(h, self._past(h)),
             self.time + h,
-            self.T > self.w,
+            self.el.two_way | (self.T > self.w),
             np.zeros_like(self.x),
             self.T,
             self.w,

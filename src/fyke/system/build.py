@@ -120,6 +120,7 @@ def make_system(
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
+        two_way=np.array([t.compression for t in net.twines], dtype=bool)[net.twine_of_bar],
         **drag,
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
