@@ -40,5 +40,5 @@ def test_a_tube_is_as_stiff_as_its_wall():
 
 
 def test_a_wall_must_leave_room():
-    with pytest.raises(ValueError, match="wall of 0.2 m"):
+    with pytest.raises(ValueError, match=r"wall of 0\.2 m"):
         Tube(0.3, 0.2, 958.0, 9e8)

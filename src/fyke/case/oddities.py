@@ -87,8 +87,8 @@ def _unused(case: Case) -> Iterator[str]:
         yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
     for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
         yield f"Tube '{name}' is not used by any ring or collar."
-    made = [*case.twine.values(), *case.tube.values()]
-    for name in sorted(case.material.keys() - {one.material for one in made}):
+    made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
+    for name in sorted(case.material.keys() - made):
         yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 

@@ -103,10 +103,14 @@ class RingSpec(TubularSpec):
         examples=["cage.bottom"],
     )
     diameter: Length | None = Field(
-        default=None, description="m, of a ring of its own, through its knots, instead of along", examples=["25 m"]
+        default=None,
+        description="m, of a ring of its own, through its knots, instead of along",
+        examples=["25 m"],
     )
     centre: Point | None = Field(
-        default=None, description="m, of a ring of its own, z up from still water", examples=[[0.0, 0.0, -15.0]]
+        default=None,
+        description="m, of a ring of its own, z up from still water",
+        examples=[[0.0, 0.0, -15.0]],
     )
     knots: Annotated[int, *whole(LEAST_ROUND, MOST_ROUND)] | None = Field(
         default=None, description="of a ring of its own", examples=[48]

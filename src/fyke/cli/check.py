@@ -64,8 +64,9 @@ def judge(case: Case) -> dict[str, Any]:
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    ropes: one table each, lengths in m, stiffness: EA in N; tubes: rings and collars; bodies: floats and sinkers, one table each kind, mass (kg),
-    diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one, total_weight of all.
+    ropes: one table each, lengths in m, stiffness: EA in N; tubes: rings and collars, see tubes_of; bodies: floats and
+    sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of
+    each one, total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """

@@ -35,7 +35,10 @@ def tubes_of(case: Case, system: System) -> list[dict[str, Any]]:
     """
     specs = {part.name: part for part in case.tubulars}
     made = [rope for rope in system.net.ropes if rope.kind in ("ring", "collar")]
-    return [_tube(system, rope) | {"tube": specs[rope.name].tube, "along": specs[rope.name].along} for rope in made]
+    return [
+        _tube(system, rope) | {"tube": specs[rope.name].tube, "along": specs[rope.name].along}
+        for rope in made
+    ]
 
 
 def _tube(system: System, rope: Rope) -> dict[str, Any]:
@@ -57,7 +60,8 @@ def _tube(system: System, rope: Rope) -> dict[str, Any]:
         "weight": water.gravity * mass,
         "buoyancy": water.gravity * water.density * volume,
         "weight_in_water": water.gravity * (mass - water.density * volume),
-        "axial_stiffness": float(system.elements.stiffness[rope.bars[0]] * net.rest_length[rope.bars[0]]) / many,
+        "axial_stiffness": float(system.elements.stiffness[rope.bars[0]] * net.rest_length[rope.bars[0]])
+        / many,
         "bending_stiffness": twine.bending_stiffness,
     }
 
@@ -73,7 +77,10 @@ def tube_rows(tube: dict[str, Any]) -> list[tuple[str, str]]:
         ("tubes", f"{many}, {tube['diameter'] * 1e3:.4g} x {tube['wall'] * 1e3:.4g} mm, {filled}"),
         ("length", quantity(tube["length"], "m") + round_),
         ("of each", stiff),
-        ("weight in air", f"{quantity(tube['weight'], 'N')}, lifts at most {quantity(tube['buoyancy'], 'N')}"),
+        (
+            "weight in air",
+            f"{quantity(tube['weight'], 'N')}, lifts at most {quantity(tube['buoyancy'], 'N')}",
+        ),
         ("weight in water", _weight(tube["weight_in_water"])),
     ]
 

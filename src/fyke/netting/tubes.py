@@ -167,7 +167,8 @@ def ring(
 ) -> Net:
     """Lay a level ring of its own, held by nothing, its knots labelled "NAME:0", "NAME:1" ... anticlockwise from +x.
 
-    twine: of a tube; diameter: m, through its knots; knots: 3 or more; tubes: side by side; centre: m. The bars are unloaded as built.
+    twine: of a tube; diameter: m, through its knots; knots: 3 or more; tubes: side by side; centre: m. The bars are
+    unloaded as built.
     """
     if knots < 3 or not diameter > 0.0:
         raise ValueError(f"ring '{name}' of {knots} knots and {diameter:g} m across")

@@ -23,7 +23,8 @@ Indices = NDArray[np.int64]
 class Bars:
     """Bars (k,) of the net, drawn between their knots; colour None: by the quantity that the picture shows.
 
-    width: over that of a bar of netting, where lines are not as thick as the twine; own: the name in the net.
+    width: over that of a bar of netting, where lines are not as thick as the twine; own: the name in the net;
+    diameter: m, of a tube, which is never drawn thinner; 0 for twine.
     """
 
     name: str
@@ -31,6 +32,7 @@ class Bars:
     colour: str | None = None
     width: float = 1.0
     own: str = ""
+    diameter: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,9 @@ SIDES: tuple[Side, ...] = ("top", "bottom", "left", "right")
 ROPE_WIDTH, BODY_SIZE = 1.7, 1.4  # over a bar of netting, over a fixed knot
 # Marker and colour of what hangs at knots.
 BODIES = {"float": ("circle", style.ORANGE), "sinker": ("diamond", style.BLACK)}
+
+# Colour of bars in a row, by their kind.
+ROWS = {"rope": style.VERMILION, "ring": style.PURPLE, "collar": style.ORANGE}
 
 Part = Bars | Knots | Outline
 Drawer = Callable[[Net], Iterator[Part]]
@@ -127,10 +132,13 @@ def netting(net: Net) -> Iterator[Part]:
 
 @draws
 def ropes(net: Net) -> Iterator[Part]:
-    """Yield the ropes, each in one piece, unless the net is nothing else."""
+    """Yield ropes, rings and collars, each in one piece, ropes only where the net is more than these."""
     for rope in net.ropes:
-        if len(coloured_bars(net)) < net.bar_count:
-            yield Bars("rope", rope.bars, style.VERMILION, ROPE_WIDTH, rope.name)
+        twine = net.twines[net.twine_of_bar[rope.bars[0]]]
+        thick = twine.diameter if twine.wall else 0.0
+        if thick or len(coloured_bars(net)) < net.bar_count:
+            colour = ROWS.get(rope.kind, style.VERMILION)
+            yield Bars(rope.kind, rope.bars, colour, ROPE_WIDTH, rope.name, thick)
 
 
 @draws

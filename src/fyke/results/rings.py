@@ -39,10 +39,9 @@ class RingFigures:
 
     tubes: side by side; weight: N, in air, of all; buoyancy: N, of what is under water in the last frame, and
     largest_buoyancy of all of it; draught_least, draught_most: m, lowest point of the tubes below the surface, at
-    the knots, freeboard_least: m, highest point above it, all None where no tube comes within its own thickness of the
-    surface; axial_force: N, of one tube, the largest by size, negative where it is pressed; bending_moment: N m, of one
-    tube, the largest; stress: Pa, the largest of both together, None of bars without a wall; utilisation: stress over the
-    yield stress, None where that is not known; ovality: largest over smallest diameter, None of one that does not
+    the knots, freeboard_least: m, highest point above it, all None where none comes near the surface; axial_force: N, of one tube, the largest by size, negative where it is pressed; bending_moment: N m, of one tube, the
+    largest; stress: Pa, the largest of both together, None of bars without a wall; utilisation: stress over the yield
+    stress, None where that is not known; ovality: largest over smallest diameter, None of one that does not
     close; in the last frame from_netting, from_lines, from_others: (3,) N, force on it of netting, its weight and the
     water on it included, of lines, and of ropes, other rings, floats, sinkers and dead loads.
     """
@@ -109,7 +108,7 @@ def _figures(system: System, result: Result, rope: Rope, last: _Last) -> RingFig
 
 def twine_of(net: Net, rope: Rope) -> Twine:
     """Return what a ring is made of."""
-    return net.twines[net.twine_of_bar[rope.bars[0]]]
+    return net.twines[int(net.twine_of_bar[rope.bars[0]])]
 
 
 def _draughts(system: System, result: Result, rope: Rope, twine: Twine) -> Array | None:
@@ -167,7 +166,9 @@ def _stress(twine: Twine, rope: Rope, force: Array, moment: Array) -> Array | No
         beside = size, np.roll(size, -1, axis=1)
     most = np.maximum(*beside)
     if moment.shape != most.shape:  # where held bars clamp an end there is no bending
-        return np.asarray(size.max(axis=1, keepdims=True) / area + moment.max(axis=1, initial=0.0)[:, None] / modulus)
+        return np.asarray(
+            size.max(axis=1, keepdims=True) / area + moment.max(axis=1, initial=0.0)[:, None] / modulus
+        )
     return np.asarray(most / area + moment / modulus)
 
 
@@ -209,7 +210,8 @@ class _Last:
         around = Surroundings(system)
         around.renew(x, frame.time)
         el, u = around.at(x, v, frame.time)
-        t, length, on_bars = np.empty((net.bar_count, 3)), np.empty(net.bar_count), np.empty((net.bar_count, 3))
+        m = net.bar_count
+        t, length, on_bars = np.empty((m, 3)), np.empty(m), np.empty((m, 3))
         bar_geometry(x, el, t, length)
         rel = u - v
         water_on_bars(rel, el, t, length, on_bars)
@@ -230,10 +232,8 @@ def _forces(system: System, rope: Rope, last: _Last) -> tuple[Array, Array, Arra
     net, water = system.net, system.water
     mine = np.zeros(net.knot_count, dtype=bool)
     mine[rope.knots] = True
-    area, density = (
-        np.array([one(t) for t in net.twines])[net.twine_of_bar]
-        for one in (lambda t: t.area, lambda t: t.soaked_density(water.density))
-    )
+    area = np.array([t.area for t in net.twines])[net.twine_of_bar]
+    density = np.array([t.soaked_density(water.density) for t in net.twines])[net.twine_of_bar]
     volume = area * net.bar_multiple * net.rest_length
     own = last.on_bars.copy()
     own[:, 2] -= water.gravity * (density - water.density * last.wet_bars) * volume
@@ -252,7 +252,9 @@ def _forces(system: System, rope: Rope, last: _Last) -> tuple[Array, Array, Arra
     up = water.gravity * (water.density * last.wet_knots - net.knot_density) * ball
     sums[0, 2] += float(up[knots].sum())
     hung = net.load.copy()
-    hung[:, 2] += water.gravity * (water.density * last.wet_knots * net.at_knots("volume") - net.at_knots("mass"))
+    hung[:, 2] += water.gravity * (
+        water.density * last.wet_knots * net.at_knots("volume") - net.at_knots("mass")
+    )
     sums[2] += (hung + last.on_knots)[knots].sum(axis=0)
     return sums[0], sums[1], sums[2]
 
@@ -284,7 +286,15 @@ def ring_words(figures: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
 
 COLUMNS = (
     *("ring", "kind", "name", "tubes", "weight", "buoyancy", "largest_buoyancy"),
-    *("draught_least", "draught_most", "freeboard_least", "axial_force", "bending_moment", "stress", "utilisation"),
+    *(
+        "draught_least",
+        "draught_most",
+        "freeboard_least",
+        "axial_force",
+        "bending_moment",
+        "stress",
+        "utilisation",
+    ),
     *("ovality", "netting_x", "netting_y", "netting_z", "lines_x", "lines_y", "lines_z"),
     *("others_x", "others_y", "others_z"),
 )

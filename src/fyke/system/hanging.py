@@ -41,7 +41,9 @@ def _names(net: Net, there: NDArray[np.bool_]) -> str:
     """Name the panels and rows of bars whose knots are all among those there (n,)."""
     parts = [(panel.shape, panel.name, panel.knots) for panel in net.panels]
     parts += [(rope.kind, rope.name, rope.knots) for rope in net.ropes]
-    names = [f"{kind} '{name}'" if name else f"the {kind}" for kind, name, knots in parts if there[knots].all()]
+    names = [
+        f"{kind} '{name}'" if name else f"the {kind}" for kind, name, knots in parts if there[knots].all()
+    ]
     return " and ".join([", ".join(names[:-1]), names[-1]] if len(names) > 1 else names)
 
 
@@ -66,14 +68,18 @@ def _sinking(system: System) -> Iterator[str]:
         mine = [collar for collar in collars if group[collar.knots[0]] == one]
         in_water = -float(system.elements.weight[there, 2].sum())
         if in_water > 0.0 and not net.fixed[there].any():
-            yield _sinks([collar.name for collar in mine], sum(_lift(system, collar) for collar in mine), in_water)
+            yield _sinks(
+                [collar.name for collar in mine], sum(_lift(system, collar) for collar in mine), in_water
+            )
 
 
 def _sinks(names: list[str], lift: float, in_water: float) -> str:
     it = "it" if len(names) == 1 else "they"
     called = " and ".join(f"'{name}'" for name in names)
     who, lifts = (f"Collar {called} sinks", "lifts") if it == "it" else (f"Collars {called} sink", "lift")
-    with_it = f"{it} weigh{'s' * (it == 'it')} {in_water + lift:.4g} N with all that hangs below, moorings apart"
+    with_it = (
+        f"{it} weigh{'s' * (it == 'it')} {in_water + lift:.4g} N with all that hangs below, moorings apart"
+    )
     return f"{who}: {with_it}, and {lifts} at most {lift:.4g} N."
 
 
@@ -97,4 +103,4 @@ def _lift(system: System, rope: Rope) -> float:
     net, water = system.net, system.water
     twine = net.twines[net.twine_of_bar[rope.bars[0]]]
     length = float((net.rest_length * net.bar_multiple)[rope.bars].sum())
-    return water.gravity * water.density * twine.fibre_area * length
+    return float(water.gravity * water.density * twine.fibre_area * length)
