@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.net import Net, Side
+from ..netting.net import Net, Rope, Side
 from . import style
 
 Array = NDArray[np.float64]
@@ -102,14 +102,20 @@ def frames(net: Net) -> Iterator[Part]:
 
 
 def coloured_bars(net: Net) -> Indices:
-    """Return the bars (k,) that a picture colours by its quantity: all but the ropes of a net that is more than ropes.
+    """Return the bars (k,) that a picture colours by its quantity: the netting; without any the ropes, else all.
 
-    A rope bears a multiple of what a bar of netting does, and would take the colours for itself.
+    A rope bears a multiple of what a bar of netting does, and would take the colours for itself, and so does a tube.
     """
-    own = np.ones(net.bar_count, dtype=bool)
+    netting, twine = np.ones(net.bar_count, dtype=bool), np.ones(net.bar_count, dtype=bool)
     for rope in net.ropes:
-        own[rope.bars] = False
-    return np.flatnonzero(own) if own.any() else np.arange(net.bar_count)
+        netting[rope.bars] = False
+        twine[rope.bars] = not _tubular(net, rope)
+    own = next((one for one in (netting, twine) if one.any()), np.ones(net.bar_count, dtype=bool))
+    return np.flatnonzero(own)
+
+
+def _tubular(net: Net, rope: Rope) -> bool:
+    return net.twines[int(net.twine_of_bar[rope.bars[0]])].wall > 0.0
 
 
 def tied_knots(net: Net) -> NDArray[np.bool_]:
@@ -132,11 +138,11 @@ def netting(net: Net) -> Iterator[Part]:
 
 @draws
 def ropes(net: Net) -> Iterator[Part]:
-    """Yield ropes, rings and collars, each in one piece, ropes only where the net is more than these."""
+    """Yield the ropes, rings and collars that do not have the colour of the quantity, each in one piece."""
+    coloured = coloured_bars(net)
     for rope in net.ropes:
-        twine = net.twines[net.twine_of_bar[rope.bars[0]]]
-        thick = twine.diameter if twine.wall else 0.0
-        if thick or len(coloured_bars(net)) < net.bar_count:
+        if not np.isin(rope.bars, coloured).all():
+            thick = float(net.bar_diameter[rope.bars[0]]) if _tubular(net, rope) else 0.0
             colour = ROWS.get(rope.kind, style.VERMILION)
             yield Bars(rope.kind, rope.bars, colour, ROPE_WIDTH, rope.name, thick)
 
