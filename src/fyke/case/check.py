@@ -16,6 +16,7 @@ from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, reference
+from .grouping import grouping_findings
 from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
@@ -151,6 +152,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
     yield from tube_findings(parts)
     yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
+    yield from grouping_findings(parts)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)

@@ -18,6 +18,7 @@ from ..netting.twine import Twine
 from .fields import Density, Direction, HangingRatio, Length, MeshCount, Name, Point, Table, whole
 
 MOST_SEGMENTS = 50
+MOST_GROUPED = 1000  # real meshes along an axis that one stands for
 LARGEST_STRAIN = 0.2  # of unloaded bars in the net as built
 
 
@@ -46,6 +47,11 @@ class NettingSpec(Table):
     )
     segments: Annotated[int, *whole(1, MOST_SEGMENTS)] = Field(
         default=1, description="straight pieces that a bar is cut into, so that it can bow", examples=[2]
+    )
+    group: Annotated[int, *whole(1, MOST_GROUPED)] | None = Field(
+        default=None,
+        description="one mesh is laid for so many real ones along width and along height; 1 by default",
+        examples=[4],
     )
 
     @property
@@ -157,6 +163,23 @@ class Piece(Part):
     meshes: tuple[MeshCount, MeshCount] = Field(
         description="meshes along the width and along the height", examples=[[8, 8]]
     )
+    given_group: Annotated[int, *whole(1, MOST_GROUPED)] | None = Field(
+        default=None,
+        alias="group",
+        description="one mesh is laid for so many real ones along width and along height; that of the netting by "
+        "default",
+        examples=[4],
+    )
+    _group: int = PrivateAttr(default=1)
+
+    @property
+    def group(self) -> int:
+        """Real meshes along an axis that one mesh is laid for."""
+        return self._group
+
+    def gather(self, group: int) -> None:
+        """Fill in the group, once, when the whole case is known."""
+        self._group = group
 
     def settle(self, netting: NettingSpec) -> None:
         """Fill in what follows from the netting, once, when the whole case is known."""
@@ -241,6 +264,7 @@ class PanelSpec(Piece):
             knot_diameter=netting.knot_diameter or 0.0,
             knot_density=netting.knot_density,
             segments=netting.segments,
+            group=self.group,
             centre=self.centre,
             normal=self.normal,
             fixed=self.fixed,

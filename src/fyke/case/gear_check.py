@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
+from ..netting.multiples import LEAST_AROUND
 from .gear import LARGEST_STRAIN, NettingSpec, PanelSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec, SinkersSpec
-from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
+from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tube_check import tubular_findings
 from .written import written
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..netting.lattice import hanging_ratios
 from .gear import LARGEST_STRAIN
+from .grouping import rounded
 from .schema import Case
 from .water_check import current_oddities
 from .waves import wave_oddities
@@ -27,6 +28,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
     )
 

@@ -16,6 +16,7 @@ from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .grouping import GroupingSpec, choose_groups
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
@@ -157,6 +158,7 @@ class Case(Table):
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
         description="panels, shapes, ropes, rings, collars, sinkers and floats, one [[gear]] each"
     )
+    grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
     shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
@@ -179,6 +181,11 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        made = [(one, self.netting[one.netting]) for one in self.pieces if one.netting in self.netting]
+        for (piece, _), group in zip(
+            made, choose_groups(made, self.grouping.knots if self.grouping else None), strict=True
+        ):
+            piece.gather(group)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property

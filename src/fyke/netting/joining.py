@@ -16,10 +16,10 @@ Indices = NDArray[np.int64]
 def joined(net: Net, stays: ArrayLike, goes: ArrayLike, shared: ArrayLike = 1.0) -> Net:
     """Return the net in which every knot of `goes` has become the knot of `stays` at the same place of the list.
 
-    stays, goes: (k,) knots of the net; shared: (k,) or one for all, how many real knots become one with others in each
-    pair: of grouped netting as many as Panel.real_along says of the edge. Bars, panels, ropes and bodies of a knot that goes are those of the one that
-    stays, which keeps its place and takes the larger diameter; it is held when one of the two was. ValueError when the
-    lists differ in length or a knot goes to two places.
+    stays, goes: (k,) knots of the net; shared: (k,) or one for all, how many real knots become one with others in
+    each pair: of grouped netting as many as Panel.real_along says of the edge. Bars, panels, ropes and bodies of a
+    knot that goes are those of the one that stays, which keeps its place and takes the larger diameter; it is held
+    when one of the two was. ValueError when the lists differ in length or a knot goes to two places.
     """
     keep, leave = np.asarray(stays, dtype=np.int64), np.asarray(goes, dtype=np.int64)
     if len(keep) != len(leave):

@@ -75,6 +75,11 @@ class Panel:
         at = places(grid, self.kind, self.meshes, self.bar_length, self.size)
         return np.asarray((at - 0.5 * intervals) * (np.array(self.size) / intervals))
 
+    def real_place(self, i: int, j: int) -> Array:
+        """Where a knot (i, j) of the real netting lies on the netting laid flat, about its middle, (2,) m."""
+        intervals = np.array(self.lattice.intervals) * np.array(self.group)
+        return np.asarray((np.array([i, j]) / intervals - 0.5) * np.array(self.size))
+
     def edge(self, which: Side) -> NDArray[np.int64]:
         """Knots of the net along an edge, in order from left to right or from below."""
         grid = self.lattice
@@ -130,11 +135,11 @@ class Net:
 
     positions: (n, 3) m, before anything acts; labels: n texts, row and column "i-j" on a panel; fixed: (n,) bool;
     bars: (m, 2) knot indices; rest_length: (m,) m, unloaded; twines: the twines in use; twine_of_bar: (m,) index
-    into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot
-    on top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
-    sinkers in it, each may be empty; bar_multiple: (m,) how many real bars side by side a bar stands for, knot_multiple:
-    (n,) how many real knots a knot, see netting.multiples; what is missing at their ends is 1. Diameters and twines are
-    those of the real bar and knot.
+    into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot on
+    top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
+    sinkers in it, each may be empty; bar_multiple: (m,) how many real bars side by side a bar stands for,
+    knot_multiple: (n,) how many real knots a knot, see netting.multiples; what is missing at their ends is 1.
+    Diameters and twines are those of the real bar and knot.
     """
 
     positions: Array

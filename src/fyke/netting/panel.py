@@ -45,9 +45,9 @@ def panel(
     """Lay a flat panel with evenly spaced knots on a frame.
 
     meshes and size: along width and height (size in m); bar_length: m, knot centre to knot centre, unloaded, of
-    hexagons the slanted bars;
-    knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out; segments: straight pieces of a
-    bar; group: one mesh is laid for so many real ones along width and height. Knots are labelled "i-j", with "name:" before it when a name is given.
+    hexagons the slanted bars; knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out;
+    segments: straight pieces of a bar; group: one mesh is laid for so many real ones along width and height. Knots
+    are labelled "i-j", with "name:" before it when a name is given.
     """
     axes, where = panel_axes(np.array(normal)), np.array(centre, dtype=float)
     return sheet(

@@ -101,7 +101,7 @@ MULTIPLES = ("bar_multiple", "knot_multiple")
 def _read_net(file: Any, attributes: dict[str, Any]) -> Net:
     names = {name: field.name for name, field in NET_FIELDS.items() if name not in ("bar_diameter", "labels")}
     # Files of a version before grouped netting have no multiples, which are ones then.
-    values = {name: file[at][...] for name, at in names.items() if at in file.variables or name not in MULTIPLES}
+    values = {name: file[at][...] for name, at in names.items() if at in file or name not in MULTIPLES}
     values["fixed"] = values["fixed"].astype(bool)
     return Net(
         labels=tuple(file[NET_FIELDS["labels"].name].asstr()[...]),

@@ -65,10 +65,24 @@ def _places(net: Net, bodies: BodiesSpec) -> Indices:
     """Return the knots at which floats or sinkers are."""
     if bodies.along is None:
         number = {label: knot for knot, label in enumerate(net.labels)}
-        return np.array([number[label] for label in bodies.at or ()], dtype=np.int64)
+        return np.array(
+            [number[label] if label in number else _nearest(net, label) for label in bodies.at or ()],
+            dtype=np.int64,
+        )
     panel, side = _edge(net, bodies.along)
     knots = panel.edge(side)
     if np.all(knots == knots[0]):
         return knots[:1]  # the tip of a cone
-    closed = panel.closed and side in ("top", "bottom")
-    return evenly(knots, bodies.count or len(knots) - closed, closed=closed)
+    axis = 0 if side in ("top", "bottom") else 1
+    closed = panel.closed and axis == 0
+    # As many as hang on the real edge, each at the nearest knot that there is.
+    real = round((len(knots) - 1) * panel.group[axis]) + (not closed)
+    return evenly(knots, bodies.count or real, closed=closed, real=real)
+
+
+def _nearest(net: Net, label: str) -> int:
+    """Return the knot nearest to a knot of the real netting that is grouped here."""
+    name, _, place = label.rpartition(":")
+    panel = next(one for one in net.panels if one.name == name)
+    flat = panel.flat - panel.real_place(*map(int, place.split("-")))
+    return int(panel.knots[np.argmin(np.einsum("kq,kq->k", flat, flat))])
