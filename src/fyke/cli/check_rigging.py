@@ -8,6 +8,7 @@ import numpy as np
 
 from ..case import Case
 from ..netting.net import Rope
+from ..netting.twine import Twine
 from ..system.system import System
 from .show import quantity
 
@@ -30,7 +31,7 @@ def tubes_of(case: Case, system: System) -> list[dict[str, Any]]:
     """Return the rings and collars of a case, ready for JSON.
 
     tubes: side by side; diameter, wall: m, of each; length: m, of each; radius: m, of the circle as long as it where it
-    closes, None where it does not; mass: kg, weight: N, in air, buoyancy: N, under water, of all; weight_in_water: N,
+    closes, None where it does not; bent_stress: Pa, where a straight tube was bent to this; mass: kg, weight: N, in air, buoyancy: N, under water, of all; weight_in_water: N,
     negative floats; axial_stiffness: EA, N, and bending_stiffness: EI, N m2, of each.
     """
     specs = {part.name: part for part in case.tubulars}
@@ -55,6 +56,7 @@ def _tube(system: System, rope: Rope) -> dict[str, Any]:
         "wall": twine.wall,
         "length": length,
         "radius": 0.5 * length / np.pi if rope.knots[0] == rope.knots[-1] else None,
+        "bent_stress": _bent(twine, length) if rope.knots[0] == rope.knots[-1] else None,
         "flooded": twine.linear_density is not None,
         "mass": mass,
         "weight": water.gravity * mass,
@@ -64,6 +66,17 @@ def _tube(system: System, rope: Rope) -> dict[str, Any]:
         / many,
         "bending_stiffness": twine.bending_stiffness,
     }
+
+
+def _bent(twine: Twine, length: float) -> float:
+    """Stress (Pa) in the outermost fibre of a straight tube that is bent to a circle of this length (m), E d/2R."""
+    inner = twine.diameter - 2.0 * twine.wall
+    second_moment = np.pi / 64.0 * (twine.diameter**4 - inner**4)
+    return float(twine.bending_stiffness / second_moment * np.pi * twine.diameter / length)
+
+
+def _bent_words(stress: float) -> str:
+    return f"{quantity(1e-6 * stress, 'MPa')} at first, where it was straight before; not in the results"
 
 
 def tube_rows(tube: dict[str, Any]) -> list[tuple[str, str]]:
@@ -77,6 +90,7 @@ def tube_rows(tube: dict[str, Any]) -> list[tuple[str, str]]:
         ("tubes", f"{many}, {tube['diameter'] * 1e3:.4g} x {tube['wall'] * 1e3:.4g} mm, {filled}"),
         ("length", quantity(tube["length"], "m") + round_),
         ("of each", stiff),
+        *([] if tube["bent_stress"] is None else [("bent to this", _bent_words(tube["bent_stress"]))]),
         (
             "weight in air",
             f"{quantity(tube['weight'], 'N')}, lifts at most {quantity(tube['buoyancy'], 'N')}",

@@ -39,7 +39,7 @@ class Bending:
 
         Half of each bar bends: 1/B = l1/(2 EI1) + l2/(2 EI2); where one has no EI, it is a hinge.
         """
-        each = np.array([t.bending_stiffness for t in net.twines])[net.twine_of_bar]
+        each = net.bar_multiple * np.array([t.bending_stiffness for t in net.twines])[net.twine_of_bar]
         knots, stiffness = [], []
         for rope in net.ropes:
             path, bars = rope.knots, rope.bars
