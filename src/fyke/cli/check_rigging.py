@@ -31,8 +31,9 @@ def tubes_of(case: Case, system: System) -> list[dict[str, Any]]:
     """Return the rings and collars of a case, ready for JSON.
 
     tubes: side by side; diameter, wall: m, of each; length: m, of each; radius: m, of the circle as long as it where it
-    closes, None where it does not; bent_stress: Pa, where a straight tube was bent to this; mass: kg, weight: N, in air, buoyancy: N, under water, of all; weight_in_water: N,
-    negative floats; axial_stiffness: EA, N, and bending_stiffness: EI, N m2, of each.
+    closes, None where it does not; bent_stress: Pa, where a straight tube was bent to this; mass: kg, weight: N, in
+    air, buoyancy: N, under water, of all; weight_in_water: N, negative floats; axial_stiffness: EA, N, and
+    bending_stiffness: EI, N m2, of each.
     """
     specs = {part.name: part for part in case.tubulars}
     made = [rope for rope in system.net.ropes if rope.kind in ("ring", "collar")]
