@@ -159,13 +159,15 @@ class Net:
     knot_multiple: Array = field(default_factory=_single)
 
     def __post_init__(self) -> None:
-        """Fill up the multiples; ValueError for more of them than there are bars or knots."""
+        """Fit multiples that are all 1, and fill up others; ValueError for more of these than bars or knots."""
         for name, count in (("bar_multiple", self.bar_count), ("knot_multiple", self.knot_count)):
             given = getattr(self, name)
-            if len(given) > count:
+            if len(given) == count:
+                continue
+            if len(given) > count and np.any(given != 1.0):
                 raise ValueError(f"{name} has {len(given)} numbers for {count}")
-            if len(given) < count:
-                object.__setattr__(self, name, np.concatenate([given, np.ones(count - len(given))]))
+            fitted = np.concatenate([given[:count], np.ones(max(count - len(given), 0))])
+            object.__setattr__(self, name, fitted)
 
     @property
     def knot_count(self) -> int:
