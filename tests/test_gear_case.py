@@ -331,7 +331,7 @@ SPOILT = {
     ),
     "a kind that is not there": (
         WHOLE.replace('kind = "rope"', 'kind = "ropes"'),
-        ("[[gear]] 2 kind", '"ropes"', '"panel" or "cylinder"', 'did you mean "rope"?'),
+        ("[[gear]] 2 kind", '"ropes"', '"panel" or "trapezoid"', 'did you mean "rope"?'),
     ),
     "a collar": (
         WHOLE.replace('kind = "rope"', 'kind = "collar"'),
@@ -480,7 +480,17 @@ def test_check_tells_every_part(tmp_path, capsys):
 def test_the_schema_knows_every_kind():
     tables = json_schema()
     kinds = set(tables["properties"]["gear"]["items"]["discriminator"]["mapping"])
-    assert kinds == {"panel", "cylinder", "cone", "frustum", "rope", "sinkers", "floats"}
+    assert kinds == {
+        "panel",
+        "trapezoid",
+        "triangle",
+        "cylinder",
+        "cone",
+        "frustum",
+        "rope",
+        "sinkers",
+        "floats",
+    }
 
 
 VALUES = [

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
-from ..netting.net import Net, Panel, Side
+from ..netting.lattice import Side
+from ..netting.net import Net, Panel
 from ..netting.rigging import evenly, with_bodies, with_rope
 
 Indices = NDArray[np.int64]
