@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from .solve.static import solve_static
     from .solve.symplectic import Symplectic
     from .solve.verner import Verner
+    from .system.bed import Bed
     from .system.build import build_net, build_system, make_system
     from .system.laws import Coefficients, Water
     from .system.system import State, System
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 # Names are fetched when first used, so that `import fyke` and `fyke --help` are quick.
 _HOME = {
     "Auto": "solve.auto",
+    "Bed": "system.bed",
     "Case": "case",
     "CaseError": "case",
     "Coefficients": "system.laws",
@@ -78,6 +80,7 @@ _HOME = {
 
 __all__ = [
     "Auto",
+    "Bed",
     "Case",
     "CaseError",
     "Coefficients",

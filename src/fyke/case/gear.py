@@ -10,9 +10,10 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, PrivateAttr
 
+from ..netting.cutting import Taper
 from ..netting.hexagon import Hexagon
-from ..netting.lattice import Edge, Mesh, flat_strain, hung_size, taut_ratios
-from ..netting.net import Net, Side
+from ..netting.lattice import Edge, Lattice, Mesh, Side, flat_strain, hung_size, lattice, taut_ratios
+from ..netting.net import Net
 from ..netting.panel import panel, panel_axes
 from ..netting.twine import Twine
 from .fields import Density, Direction, HangingRatio, Length, MeshCount, Name, Point, Table, whole
@@ -68,7 +69,7 @@ class Sheet:
 
     name: of the panel in the net; meshes: along width and height; size: m, width and height laid flat, the mean ones;
     rims: diameters (m) of the lower and the upper rim of one that closes round, None for a flat one; sewn: its upper
-    rim has the knots of another sheet.
+    rim has the knots of another sheet; taper: how its sides are cut, meshes and size being those of the wide end.
     """
 
     name: str
@@ -76,6 +77,7 @@ class Sheet:
     size: tuple[float, float]
     rims: tuple[float, float] | None = None
     sewn: bool = False
+    taper: Taper | None = None
 
     @property
     def edges(self) -> tuple[Side, ...]:
@@ -86,6 +88,17 @@ class Sheet:
     def tip(self) -> bool:
         """Whether its lowest row is one knot."""
         return self.rims is not None and self.rims[0] == 0.0
+
+    def lattice(self, mesh: Mesh) -> Lattice:
+        """Return the lattice of its meshes."""
+        return lattice(mesh, self.meshes, self.taper)
+
+    def area(self, mesh: Mesh) -> float:
+        """Return the area within its outline, laid flat (m2)."""
+        whole = self.size[0] * self.size[1]
+        if self.taper is None or isinstance(mesh, Hexagon):
+            return whole
+        return whole * self.taper.area(mesh, self.last(mesh))
 
     def strain(self, netting: NettingSpec) -> float:
         """Strain of the longest bars as built, from knot to knot where it is widest; negative where all are slack."""
@@ -98,6 +111,10 @@ class Sheet:
 
     def edge(self, side: Side, mesh: Mesh) -> tuple[int, float]:
         """Return how many knots an edge has, and how long (m) it is from knot to knot; of hexagons at most."""
+        if self.taper is not None:
+            grid = self.lattice(mesh)
+            places = grid.knots[grid.edge(side)] * (np.array(self.size) / np.array(grid.intervals))
+            return len(places), float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
         if self.rims is None:
             along = 0 if side in ("top", "bottom") else 1
             if isinstance(mesh, Hexagon):
@@ -118,6 +135,8 @@ class Sheet:
 
     def has(self, i: int, j: int, mesh: Mesh) -> bool:
         """Whether it has a knot i-j of its own."""
+        if self.taper is not None:
+            return bool((self.lattice(mesh).knots == (i, j)).all(axis=1).any())
         last = self.last(mesh)
         knot = mesh.has(i, j) if isinstance(mesh, Hexagon) else mesh == "square" or (i + j) % 2 == 0
         return i <= last[0] and j <= last[1] and knot and not (self.tip and j == 0 and i > 0)
@@ -202,14 +221,13 @@ class Piece(Part):
         """Build it of this netting, whose twine this is."""
 
 
-class PanelSpec(Piece):
-    """A rectangular panel of netting on a frame."""
+class FlatSpec(Piece):
+    """A flat panel of netting on a frame."""
 
-    kind: Literal["panel"] = Field(description="kind of gear", examples=["panel"])
     given_size: tuple[Length, Length] | None = Field(
         default=None,
         alias="size",
-        description="m, width and height of the frame",
+        description="m, width and height of the frame; of one that is cut, at its wide end",
         examples=[[0.3055, 0.3055]],
     )
     hanging_ratio: HangingRatio | None = Field(
@@ -232,6 +250,15 @@ class PanelSpec(Piece):
         """Width and height of the frame (m), as given or from the hanging ratio."""
         return self._size
 
+    @property
+    def wide(self) -> tuple[int, int]:
+        """Meshes along the width, at its wide end, and along the height."""
+        return self.meshes
+
+    def taper(self, netting: NettingSpec) -> Taper | None:
+        """Return how its sides are cut, None where they are straight. ValueError for cuts that cannot be."""
+        return None
+
     def settle(self, netting: NettingSpec) -> None:
         """Fill in the size."""
         self._size = self.sized_for(netting)
@@ -243,7 +270,9 @@ class PanelSpec(Piece):
 
     def sheets(self, netting: NettingSpec) -> tuple[Sheet, ...]:
         """Return the one sheet."""
-        return (Sheet(self.name, self.meshes, self.sized_for(netting)),) if self.sized else ()
+        if not self.sized:
+            return ()
+        return (Sheet(self.name, self.wide, self.sized_for(netting), taper=self.taper(netting)),)
 
     def heights(self, netting: NettingSpec) -> tuple[float, float] | None:
         """Return z (m) of its lowest and its highest corner."""
@@ -258,7 +287,7 @@ class PanelSpec(Piece):
         return panel(
             twine,
             mesh=netting.mesh,
-            meshes=self.meshes,
+            meshes=self.wide,
             bar_length=netting.bar_length,
             size=self.size,
             knot_diameter=netting.knot_diameter or 0.0,
@@ -267,6 +296,7 @@ class PanelSpec(Piece):
             group=self.group,
             centre=self.centre,
             normal=self.normal,
+            taper=self.taper(netting),
             fixed=self.fixed,
             name=self.name,
         )
@@ -276,5 +306,11 @@ class PanelSpec(Piece):
         if self.given_size is not None:
             return self.given_size
         return hung_size(
-            netting.mesh, self.meshes, netting.bar_length, ratios(self.hanging_ratio or 0.0, netting.mesh)
+            netting.mesh, self.wide, netting.bar_length, ratios(self.hanging_ratio or 0.0, netting.mesh)
         )
+
+
+class PanelSpec(FlatSpec):
+    """A rectangular panel of netting on a frame."""
+
+    kind: Literal["panel"] = Field(description="kind of gear", examples=["panel"])

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, cast
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
 from ..netting.multiples import LEAST_AROUND
-from .gear import LARGEST_STRAIN, NettingSpec, PanelSpec, Piece, Sheet
+from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, RoundSpec
+from .tapered import TaperedSpec
+from .tapered_check import cutting
 from .tube_check import tubular_findings
 from .written import written
 
@@ -25,6 +27,7 @@ if TYPE_CHECKING:
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
 _LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
 _ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
+_FLAT = ("panel", "trapezoid", "triangle")
 _KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
 
 
@@ -47,10 +50,15 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             there = [name for name, _ in parts.items(table)]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
-        if keys.get("kind") in ("panel", None):
+        if keys.get("kind") in (*_FLAT, None):
             yield from _one_size(("gear", index), keys)
     for index, piece in parts.pieces.items():
         path = ("gear", index)
+        if isinstance(piece, TaperedSpec) and piece.netting in parts.nettings:
+            wrong_cuts = list(cutting(path, piece, parts.nettings[piece.netting]))
+            yield from wrong_cuts
+            if wrong_cuts:
+                continue
         if isinstance(piece, RoundSpec):
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
@@ -92,7 +100,7 @@ def _names(parts: Parts) -> Iterator[Finding]:
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
     anchored = any(other.get("kind") in _ANCHORED for _, other in parts.gear_tables())
     if parts.is_static and keys.get("fixed") == "none" and not anchored:
-        panel = keys.get("kind") == "panel"
+        panel = keys.get("kind") in _FLAT
         allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
         hold = "edges" if panel else "top"
         cure = f'nothing would hold it: write fixed = "{hold}", or solve with kind = "dynamic"'
@@ -182,7 +190,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
     if isinstance(ratio, tuple) and max(ratio) > 1.0 and isinstance(piece, RoundSpec):
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        if isinstance(piece, PanelSpec):
+        if isinstance(piece, FlatSpec):
             yield from _pair(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
@@ -192,7 +200,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
 
 def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec) -> Finding:
     strain = f"which strains the bars by {sheet.strain(netting) * 100:.3g} % before anything acts"
-    if isinstance(piece, PanelSpec):
+    if isinstance(piece, FlatSpec):
         key = "size" if piece.given_size else "hanging_ratio"
         found = f"{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
         allowed = f"a frame that the net can span: at most {LARGEST_STRAIN * 100:g} % strain"
@@ -211,6 +219,8 @@ def sheets_by_name(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     out = {}
     for index, piece in parts.pieces.items():
         netting = parts.nettings.get(piece.netting)
+        if netting and isinstance(piece, TaperedSpec) and any(cutting((), piece, netting)):
+            continue
         for sheet in piece.sheets(netting) if netting else ():
             out[parts.name_of(index, sheet)] = (sheet, netting)
     return cast(dict[str, tuple[Sheet, NettingSpec]], out)

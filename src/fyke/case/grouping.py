@@ -13,6 +13,7 @@ from ..netting.multiples import LEAST_AROUND, grouped_meshes
 from .fields import Table, whole
 from .gear import MOST_GROUPED, NettingSpec, Piece, Sheet
 from .places import Path
+from .tapered import TaperedSpec
 
 if TYPE_CHECKING:
     from .check import Finding, Parts
@@ -71,11 +72,13 @@ def _given(piece: Piece, netting: NettingSpec) -> int | None:
     """The group of a piece, 1 where it cannot be grouped; None where a budget may choose."""
     if piece.given_group is not None or netting.group is not None:
         return piece.given_group if piece.given_group is not None else netting.group
-    return 1 if _why_not(netting) else None
+    return 1 if _why_not(netting, piece) else None
 
 
-def _why_not(netting: NettingSpec) -> str:
-    """Why netting cannot be grouped, "" where it can."""
+def _why_not(netting: NettingSpec, piece: Piece | None = None) -> str:
+    """Why netting, or a piece of it, cannot be grouped, "" where it can."""
+    if isinstance(piece, TaperedSpec):
+        return f"{piece.called}, whose sides are cut mesh by mesh"
     if isinstance(netting.mesh, Hexagon):
         return "hexagonal meshes, whose zigzag edges have no larger likeness"
     if netting.segments > 1:
@@ -137,20 +140,25 @@ def grouping_findings(parts: Parts) -> Iterator[Finding]:
 
 
 def _of_piece(path: Path, piece: Piece, netting: NettingSpec) -> Iterator[Finding]:
-    group = _given(piece, netting) or 1
-    if piece.given_group is not None and group > 1 and _why_not(netting):
-        yield _refused(path, group, netting)
+    group, told = _given(piece, netting) or 1, piece.given_group is not None
+    if group > 1 and _why_not(netting, piece):
+        if told or not _why_not(netting):
+            yield _refused(path, group, netting, piece)
+        return
     most = largest_group(piece, netting)
-    if group > most and not _why_not(netting):
+    if group > most:
         counts = " and ".join(f"{a} x {b}" for a, b in (sheet.meshes for sheet in piece.sheets(netting)))
         allowed = f"at most {most}: at least one mesh is left along every side, and three around"
         yield path, f"{group} for {piece.called} of {counts} meshes", allowed, f"write group = {most} or less"
 
 
-def _refused(path: Path, group: int, netting: NettingSpec) -> Finding:
-    found = f"{group} for {_why_not(netting)}"
-    cure = "leave out group" + (", or segments" if netting.segments > 1 else "")
-    return path, found, "group with diamond and square meshes whose bars are in one piece", cure
+def _refused(path: Path, group: int, netting: NettingSpec, piece: Piece | None = None) -> Finding:
+    found = f"{group} for {_why_not(netting, piece)}"
+    allowed = "a group of rectangles and round shapes of diamond and square meshes, their bars in one piece"
+    cure = (
+        "write group = 1" if piece else "leave out group" + (", or segments" if netting.segments > 1 else "")
+    )
+    return path, found, allowed, cure
 
 
 def _budget(made: Sequence[Made], budget: int) -> Iterator[Finding]:

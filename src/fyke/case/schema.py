@@ -21,6 +21,7 @@ from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
+from .tapered import TrapezoidSpec, TriangleSpec
 from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
@@ -92,6 +93,8 @@ class DynamicSolve(Table):
 
 Gear = Annotated[
     PanelSpec
+    | TrapezoidSpec
+    | TriangleSpec
     | CylinderSpec
     | ConeSpec
     | FrustumSpec
@@ -260,7 +263,7 @@ class Case(Table):
         """Solidity of the netting as it is hung, the mean by its areas."""
         solid, area = 0.0, 0.0
         for netting, sheet in self.sheets:
-            outline = sheet.size[0] * sheet.size[1]
+            outline = sheet.area(netting.mesh)
             solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
         return solid / area

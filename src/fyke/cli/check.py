@@ -62,7 +62,8 @@ def judge(case: Case) -> dict[str, Any]:
     one stands for along an axis; laid: meshes of a panel as it is laid. mass: in air (kg); weight_in_water: N,
     positive sinks; panels: one table each sheet of netting, lengths in m, areas in m2, mass_per_area in kg/m2, rtex
     in tex; strain: largest as built, negative where all bars are slack; rims: diameters (m) of the lower and the
-    upper rim of netting that closes round, None of a flat panel;
+    upper rim of netting that closes round, None of a flat panel; ends: meshes along the upper and the lower edge of one
+    that is cut to shape, else None;
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
@@ -149,6 +150,7 @@ def _panel(
         "mesh": netting.mesh_name,
         "meshes": list(panel.real_meshes),
         "laid": list(panel.meshes),
+        "ends": [len(panel.edge(end)) - 1 for end in ("top", "bottom")] if panel.taper else None,
         "segments": netting.segments,
         "size": list(panel.size),
         "rims": list(sheet.rims) if sheet.rims else None,
@@ -208,7 +210,7 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
     e1, e2 = panel["hanging_ratios"]
     state = "taut" if panel["strain"] > 0.0 else "slack"
     return [
-        ("meshes", f"{across} x {down} = {across * down}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
+        ("meshes", f"{_meshes(panel)}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
         *(
             [("laid with", f"{few} x {rows} = {few * rows}, one for {across / few:.4g} x {down / rows:.4g}")]
             if [few, rows] != [across, down]
@@ -229,6 +231,14 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
         ("Reynolds number", _reynolds(panel)),
         ("twine damping", f"{quantity(panel['damping_time'] * 1e6, 'us', 3)}, {panel['damping_source']}"),
     ]
+
+
+def _meshes(panel: dict[str, Any]) -> str:
+    across, down = panel["meshes"]
+    if panel["ends"]:
+        high, low = panel["ends"]
+        return f"{high} above, {low} below, {down} high"
+    return f"{across} x {down} = {across * down}"
 
 
 def _outline(panel: dict[str, Any], width: float, height: float) -> list[tuple[str, str]]:

@@ -6,8 +6,8 @@ the curvature of discrete elastic rods over the half of each bar next to b, l = 
 The tangent of half the angle rather than the angle or 1 - c: E has no end as a bar folds back on the next, so that
 nothing gets over it, and is a ratio of plain numbers in c. M. Bergou, M. Wardetzky, S. Robinson, B. Audoly, E.
 Grinspun, Discrete elastic rods, ACM Trans. Graph. 27(3), 63, 2008, known, not opened. A tube is straight when nothing
-bends it, and twists freely. Of a plane ring that makes no difference: 1/2 EI (kappa - 1/R)^2 less 1/2 EI kappa^2 is, but
-for a constant, the sum of all its angles times EI/R, which is the same in every shape of it.
+bends it, and twists freely. Of a plane ring that makes no difference: 1/2 EI kappa^2 less 1/2 EI (kappa - 1/R)^2
+is, but for a constant, EI/R times the sum of all angles, which is the same in every shape of it.
 """
 
 from __future__ import annotations
@@ -37,22 +37,24 @@ class Bending:
     def of(cls, net: Net) -> Bending | None:
         """Return the bending of the ropes of a net that are tubes, None where none is.
 
-        Half of each bar bends: 1/B = l1/(2 EI1) + l2/(2 EI2); where one has no EI, it is a hinge.
+        Half of each bar bends: 1/B = l1/(2 EI1) + l2/(2 EI2). Where one has no EI there is a hinge; one between two
+        held knots is a clamp, in which nothing bends.
         """
         each = net.bar_multiple * np.array([t.bending_stiffness for t in net.twines])[net.twine_of_bar]
-        knots, stiffness = [], []
+        half = np.divide(0.5 * net.rest_length, each, out=np.full(net.bar_count, np.inf), where=each > 0.0)
+        half[net.fixed[net.bars].all(axis=1) & (each > 0.0)] = 0.0
+        knots, softness = [], []
         for rope in net.ropes:
             path, bars = rope.knots, rope.bars
             if path[0] == path[-1] and len(bars) > 1:
                 path, bars = np.append(path, path[1]), np.append(bars, bars[0])
-            soft = np.divide(net.rest_length[bars], 2.0 * each[bars], out=np.full(len(bars), np.inf), where=each[bars] > 0.0)
             knots.append(np.column_stack([path[:-2], path[1:-1], path[2:]]))
-            stiffness.append(1.0 / (soft[:-1] + soft[1:]))
+            softness.append(half[bars[:-1]] + half[bars[1:]])
         if not knots:
             return None
-        all_knots, all_stiffness = np.concatenate(knots), np.concatenate(stiffness)
-        bends = all_stiffness > 0.0
-        return cls(np.ascontiguousarray(all_knots[bends]), all_stiffness[bends]) if bends.any() else None
+        places, soft = np.concatenate(knots), np.concatenate(softness)
+        bends = np.isfinite(soft) & (soft > 0.0)
+        return cls(np.ascontiguousarray(places[bends]), 1.0 / soft[bends]) if bends.any() else None
 
     def see(self, x: Array, v: Array, time: float) -> None:
         """Take up positions x (n, 3) m."""
@@ -132,11 +134,11 @@ def assemble_bending(x, knots, stiffness, start, stride, data):
             for q in range(3):
                 one = 1.0 if p == q else 0.0
                 p1, q1, p2, q2 = s[p] - c * t[p], s[q] - c * t[q], t[p] - c * s[p], t[q] - c * s[q]
-                h[0, 0, p, q] = u * u * (
-                    second * p1 * q1 - first * (t[p] * q1 + p1 * t[q] + c * (one - t[p] * t[q]))
+                h[0, 0, p, q] = (
+                    u * u * (second * p1 * q1 - first * (t[p] * q1 + p1 * t[q] + c * (one - t[p] * t[q])))
                 )
-                h[1, 1, p, q] = w * w * (
-                    second * p2 * q2 - first * (s[p] * q2 + p2 * s[q] + c * (one - s[p] * s[q]))
+                h[1, 1, p, q] = (
+                    w * w * (second * p2 * q2 - first * (s[p] * q2 + p2 * s[q] + c * (one - s[p] * s[q])))
                 )
                 h[0, 1, p, q] = u * w * (second * p1 * q2 + first * (one - s[p] * s[q] - t[p] * q2))
                 h[1, 0, q, p] = h[0, 1, p, q]

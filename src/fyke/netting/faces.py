@@ -25,12 +25,12 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 # Corners of a face as steps (i, j) on the lattice, in order round it. Whole diamonds go from the middle of the mesh;
-# halves lie at the sides i = 0, i = end, j = 0, j = end, and their side c-a is the one along the frame.
+# halves lack one of the four, in this order, and their side c-a is the one along the frame.
 _DIAMOND = ((-1, 0), (0, -1), (1, 0), (0, 1))
 _HALVES = (
     ((0, -1), (1, 0), (0, 1), (0, 1)),
-    ((0, 1), (-1, 0), (0, -1), (0, -1)),
     ((1, 0), (0, 1), (-1, 0), (-1, 0)),
+    ((0, 1), (-1, 0), (0, -1), (0, -1)),
     ((-1, 0), (0, -1), (1, 0), (1, 0)),
 )
 _SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
@@ -165,25 +165,26 @@ def _around(index: Indices, at: Indices, steps: tuple[tuple[int, int], ...]) -> 
 
 def _square_corners(grid: Lattice) -> Indices:
     i, j = np.indices(grid.intervals).reshape(2, -1)
-    return _around(_places(grid), np.column_stack([i, j]), _SQUARE)
+    corners = _around(_places(grid), np.column_stack([i, j]), _SQUARE)
+    return corners[(corners >= 0).all(axis=1)]
 
 
 def _diamond_corners(grid: Lattice) -> Indices:
-    """Whole meshes about every lattice point without a knot, and halves about those on the frame, row by row."""
-    index = _places(grid)
-    middle = np.argwhere(index < 0)
-    sides = (
-        middle[:, 0] == 0,
-        middle[:, 0] == grid.intervals[0],
-        middle[:, 1] == 0,
-        middle[:, 1] == grid.intervals[1],
-    )
-    corners = np.empty((len(middle), 4), dtype=np.int64)
-    inside = ~np.any(sides, axis=0)
-    corners[inside] = _around(index, middle[inside], _DIAMOND)
-    for side, steps in zip(sides, _HALVES, strict=True):
-        corners[side] = _around(index, middle[side], steps)
-    return corners
+    """Whole meshes about every lattice point between four knots, and halves between three, row by row."""
+    i, j = np.indices((grid.intervals[0] + 1, grid.intervals[1] + 1)).reshape(2, -1)
+    middle = np.column_stack([i, j])[(i + j) % 2 == 1]
+    # With a rim of places without knots, every middle has four neighbours.
+    index = np.pad(_places(grid), 1, constant_values=-1)
+    around = _around(index, middle + 1, _DIAMOND)
+    missing = around < 0
+    corners = np.full((len(middle), 4), -1, dtype=np.int64)
+    whole = ~missing.any(axis=1)
+    corners[whole] = around[whole]
+    half = missing.sum(axis=1) == 1
+    for side, steps in enumerate(_HALVES):
+        here = half & missing[:, side]
+        corners[here] = _around(index, middle[here] + 1, steps)
+    return corners[corners[:, 0] >= 0]
 
 
 def _hexagon_corners(panel: Panel, grid: Lattice, hexagon: Hexagon) -> Indices:

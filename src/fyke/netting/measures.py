@@ -111,11 +111,12 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     ratios = hanging_ratios(mesh, panel.real_meshes, panel.bar_length, panel.size)
     density = float(np.mean(net.knot_density[panel.knots]))
     knots, own = 2 if panel.mesh == "hexagonal" else 1, np.unique(panel.bars)
+    left = panel.taper.area(panel.mesh, panel.lattice.intervals) if panel.taper else 1.0
     cell_mass = (2.0 * panel.bar_length + panel.long_bar) * twine.mass_per_length
     cell_mass += knots * density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
-        outline_area=panel.size[0] * panel.size[1],
+        outline_area=panel.size[0] * panel.size[1] * left,
         solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
         twine_area=float(twine.diameter * net.bar_multiple[own] @ net.rest_length[own]),
         mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import End, Taper
 from .hexagon import Hexagon
-from .lattice import Lattice, Mesh, lattice, places
+from .lattice import Lattice, Mesh, Side, lattice, places
 from .twine import Twine
 
 Array = NDArray[np.float64]
-Side = Literal["top", "bottom", "left", "right"]
 
 
 @dataclass(frozen=True)
@@ -25,8 +25,10 @@ class Panel:
     knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of the knots and bars of
     netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
     hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
-    width (T90). Of grouped netting meshes, knots and bars are those that it is laid with, and grouped_from: the meshes
-    of the real netting, whose bar_length and knot_diameter these are; None where each mesh stands for itself.
+    width (T90). Of netting cut to shape: cuts: of the left and the right side, from the wide end on, and the narrow
+    end; meshes and size are those of the wide end. Of grouped netting meshes, knots and bars are those that it is laid
+    with, and grouped_from: the meshes of the real netting, whose bar_length and knot_diameter these are; None where
+    each mesh stands for itself.
     """
 
     name: str
@@ -42,6 +44,7 @@ class Panel:
     bars: NDArray[np.int64]
     long_bar: float = 0.0
     turned: bool = False
+    cuts: tuple[str, ...] = ()
     grouped_from: tuple[int, int] | None = None
 
     @property
@@ -56,6 +59,11 @@ class Panel:
         return real[0] / self.meshes[0], real[1] / self.meshes[1]
 
     @property
+    def taper(self) -> Taper | None:
+        """How its sides are cut, None where they are straight."""
+        return Taper(self.cuts[0], self.cuts[1], cast(End, self.cuts[2])) if self.cuts else None
+
+    @property
     def kind(self) -> Mesh:
         """The kind of mesh, as functions of netting.lattice take it."""
         if self.mesh == "hexagonal":
@@ -65,7 +73,7 @@ class Panel:
     @property
     def lattice(self) -> Lattice:
         """The lattice of the meshes."""
-        return lattice(self.kind, self.meshes)
+        return lattice(self.kind, self.meshes, self.taper)
 
     @property
     def flat(self) -> Array:
@@ -82,10 +90,7 @@ class Panel:
 
     def edge(self, which: Side) -> NDArray[np.int64]:
         """Knots of the net along an edge, in order from left to right or from below."""
-        grid = self.lattice
-        along, end = {"bottom": (0, 0), "top": (0, 1), "left": (1, 0), "right": (1, 1)}[which]
-        there = np.flatnonzero(grid.knots[:, 1 - along] == end * grid.intervals[1 - along])
-        return self.knots[there[np.argsort(grid.knots[there, along], kind="stable")]]
+        return self.knots[self.lattice.edge(which)]
 
     def real_along(self, which: Side) -> Array:
         """How many real knots of an edge each of its knots stands for, in the order of edge()."""
@@ -159,13 +164,15 @@ class Net:
     knot_multiple: Array = field(default_factory=_single)
 
     def __post_init__(self) -> None:
-        """Fill up the multiples; ValueError for more of them than there are bars or knots."""
+        """Fit multiples that are all 1, and fill up others; ValueError for more of these than bars or knots."""
         for name, count in (("bar_multiple", self.bar_count), ("knot_multiple", self.knot_count)):
             given = getattr(self, name)
-            if len(given) > count:
+            if len(given) == count:
+                continue
+            if len(given) > count and np.any(given != 1.0):
                 raise ValueError(f"{name} has {len(given)} numbers for {count}")
-            if len(given) < count:
-                object.__setattr__(self, name, np.concatenate([given, np.ones(count - len(given))]))
+            fitted = np.concatenate([given[:count], np.ones(max(count - len(given), 0))])
+            object.__setattr__(self, name, fitted)
 
     @property
     def knot_count(self) -> int:
@@ -181,6 +188,11 @@ class Net:
     def bar_diameter(self) -> Array:
         """Twine diameter of every bar, (m,) m."""
         return np.array([t.diameter for t in self.twines])[self.twine_of_bar]
+
+    @property
+    def two_way(self) -> NDArray[np.bool_]:
+        """Whether a bar also pushes, as those of tubes do, (m,)."""
+        return np.array([t.compression for t in self.twines], dtype=bool)[self.twine_of_bar]
 
     def at_knots(self, what: Literal["mass", "volume", "drag_area"]) -> Array:
         """Return the mass (kg), volume (m3) or drag area (m2) of the bodies at every knot, (n,)."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import Taper
 from .hexagon import Hexagon
 from .lattice import Edge, Lattice, Mesh, MeshKind, lattice, places, rest_lengths
 from .multiples import bar_multiples, grouped_meshes, knot_multiples, real_indices
@@ -48,16 +49,19 @@ def sheet(
     size: tuple[float, float],
     closed: bool = False,
     tip: bool = False,
+    taper: Taper | None = None,
     fixed: Edge = "edges",
     name: str = "",
 ) -> Net:
     """Lay netting of so many meshes along width and height on a surface, grouped as the netting says.
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
-    knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with
+    knots is the first; tip: the lowest row is one knot; taper: how its sides are cut, meshes and size being those of
+    the wide end; fixed: which knots are held. Knots are labelled "i-j", with
     "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
     "0-0>1-1.1", those of grouped netting by the real knots at their places. ValueError for hexagons that close round
-    with their long bars along the width, or run to a tip, and for netting that cannot be grouped.
+    with their long bars along the width, or run to a tip, for netting both cut and closed, and for netting that cannot
+    be grouped.
     """
     few = _fewer(netting, meshes, closed)
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
@@ -65,7 +69,11 @@ def sheet(
         raise ValueError(
             "hexagonal netting closes round with its long bars along the height (T0), and has no tip"
         )
-    grid = lattice(netting.mesh, few.meshes)
+    if taper is not None and (closed or tip):
+        raise ValueError("netting whose sides are cut does not close round by itself: join its sides")
+    if taper is not None and netting.group > 1:
+        raise ValueError("netting cut to shape is not grouped: its cuts go mesh by mesh")
+    grid = lattice(netting.mesh, few.meshes, taper)
     intervals = np.array(grid.intervals, dtype=float)
     at = places(grid, netting.mesh, few.meshes, netting.bar_length, size)
     own, knots = _own_knots(grid, closed, tip)
@@ -101,6 +109,7 @@ def sheet(
         bars=np.arange(m).reshape(-1, s)[bars],
         long_bar=hexagon.long_bar * netting.bar_length if hexagon else 0.0,
         turned=hexagon.turned if hexagon else False,
+        cuts=(taper.left, taper.right, taper.narrow) if taper else (),
         grouped_from=None if few.meshes == meshes else meshes,
     )
     side_by_side, longer, many = few.multiples(grid, size, closed=closed, tip=tip)

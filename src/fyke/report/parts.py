@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.net import Net, Rope, Side
+from ..netting.lattice import Side
+from ..netting.net import Net, Rope
 from . import style
 
 Array = NDArray[np.float64]

@@ -151,7 +151,8 @@ def _draw_tubes(axes: list[Axes], net: Net, x: Array, plane: tuple[Array, Array]
             size = thickness(axes[0], part, net.bar_count)
             mark(axes[0], places, marker="o", markersize=size, label=name, color=part.colour)
             wide = thickness(axes[1], part, net.bar_count)
-            axes[1].add_collection(LineCollection(list(ends[:, :, :2]), linewidths=wide, zorder=1.4, **look), autolim=False)
+            row = LineCollection(list(ends[:, :, :2]), linewidths=wide, zorder=1.4, **look)
+            axes[1].add_collection(row, autolim=False)
 
 
 def _sheet(limits: list[Array], names: list[str], *, arrow: bool) -> tuple[Figure, list[Axes]]:

@@ -53,7 +53,7 @@ def summary(
 
     support_reaction: force of the net on its supports, (3,). max_tension_bar: number of the bar with the
     largest tension, counted from 0 as in bars.csv, None when all are slack; max_tension_bar_label: the labels
-    of its two knots. slack_bars: how many bars have no tension. max_displacement: of a knot, against its
+    of its two knots. slack_bars: how many bars have no tension, tubes apart. max_displacement: of a knot, against its
     initial position. max_strain: of a bar, (length - rest length) / rest length, 0 where all are slack.
     real_knots, real_bars: those of the real netting where meshes are grouped, group: the most real meshes that one
     stands for along an axis, 1 where all stand for themselves; tensions are those of one real bar.
@@ -75,15 +75,12 @@ def summary(
         "wall_time": outcome.wall_time,
         "knots": net.knot_count,
         "bars": net.bar_count,
-        "real_knots": measures.real_knots,
-        "real_bars": measures.real_bars,
-        "group": measures.group,
         "support_reaction": last.support_reaction.tolist(),
         "hydrodynamic_force": last.hydrodynamic_force.tolist(),
         "weight_in_water": result.weight_in_water,
         "max_tension": float(np.max(last.tension, initial=0.0)),
         "max_tension_bar": bar,
-        "slack_bars": int(np.count_nonzero(last.tension <= 0.0)),
+        "slack_bars": int(np.count_nonzero((last.tension <= 0.0) & ~net.two_way)),
         "max_displacement": float(np.max(np.linalg.norm(last.position - net.positions, axis=1))),
         "version": __version__,
         "case_sha256": case_sha256 or case_hash(result.case_text),
@@ -95,6 +92,9 @@ def summary(
         "lift": lift,
         "max_strain": float(np.max(strain, initial=0.0)),
         "time": outcome.time if outcome.time > 0.0 else None,
+        "real_knots": measures.real_knots,
+        "real_bars": measures.real_bars,
+        "group": measures.group,
         "rejected": outcome.rejected,
         "force_evaluations": outcome.force_evaluations,
         "audit": None if audit is None else audit.figures(),

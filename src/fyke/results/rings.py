@@ -38,12 +38,13 @@ class RingFigures:
     """What a ring or a collar is and bears, over all frames unless said otherwise.
 
     tubes: side by side; weight: N, in air, of all; buoyancy: N, of what is under water in the last frame, and
-    largest_buoyancy of all of it; draught_least, draught_most: m, lowest point of the tubes below the surface, at
-    the knots, freeboard_least: m, highest point above it, all None where none comes near the surface; axial_force: N, of one tube, the largest by size, negative where it is pressed; bending_moment: N m, of one tube, the
-    largest; stress: Pa, the largest of both together, None of bars without a wall; utilisation: stress over the yield
-    stress, None where that is not known; ovality: largest over smallest diameter, None of one that does not
-    close; in the last frame from_netting, from_lines, from_others: (3,) N, force on it of netting, its weight and the
-    water on it included, of lines, and of ropes, other rings, floats, sinkers and dead loads.
+    largest_buoyancy of all of it; draught_least, draught_most: m, lowest point of the tubes below the surface, at the
+    knots, freeboard_least: m, highest point above it, all None where none comes near the surface; axial_force: N, of
+    one tube, the largest by size, negative where it is pressed; bending_moment: N m, of one tube, the largest; stress:
+    Pa, the largest of both together, None of bars without a wall; utilisation: stress over the yield stress, None
+    where that is not known; ovality: largest over smallest diameter, None of one that does not close; in the last
+    frame from_netting, from_lines, from_others: (3,) N, force on it of netting, its weight and the water on it
+    included, of lines, and of ropes, other rings, floats, sinkers and dead loads.
     """
 
     kind: str

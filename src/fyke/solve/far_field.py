@@ -79,7 +79,16 @@ class Far:
         s, b = self.s, self.s.b
         cone.cone_target(self.scaling, self.scaled, centre, self.cross, s.el.two_way, self.target)
         cone.cone_right_side(
-            self.tubes.load(), self.Z, self.f, self.target, self.row, s.el, s.pattern.free, self.push, b.total, b.right
+            self.tubes.load(),
+            self.Z,
+            self.f,
+            self.target,
+            self.row,
+            s.el,
+            s.pattern.free,
+            self.push,
+            b.total,
+            b.right,
         )
         s.move(solve)
         cone.cone_changes(

@@ -74,7 +74,7 @@ def two_way_stiffness(T, k, t, length, two_way, block):
 
 @njit(**OPTIONS)
 def two_way_changes(dx, k, target, el, t, de, dT):
-    """Elongation de (m,) m and tension dT (m,) N of two-way bars for a motion dx (n, 3) m; return the largest rotation."""
+    """Elongation de (m,) m and change of tension dT (m,) N for a motion dx (n, 3) m; return the largest rotation."""
     rotation = 0.0
     for e in range(k.shape[0]):
         if not el.two_way[e]:

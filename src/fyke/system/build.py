@@ -19,6 +19,7 @@ from ..water.laws import Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
+from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
@@ -82,10 +83,12 @@ def make_system(
     coefficients: Coefficients | None = None,
     waves: Waves | None = None,
     surface: bool = False,
+    bed: Bed | None = None,
 ) -> System:
     """Freeze a net in water: masses, weights and drag coefficients of every knot and bar.
 
-    surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere.
+    surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere; bed: the
+    ground that knots come to lie on.
     """
     w = water or Water()
     c = coefficients or Coefficients()
@@ -120,7 +123,7 @@ def make_system(
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
-        two_way=np.array([t.compression for t in net.twines], dtype=bool)[net.twine_of_bar],
+        two_way=net.two_way,
         **drag,
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
@@ -136,7 +139,8 @@ def make_system(
         waves=waves,
         surface=surface or waves is not None,
         faces=faces_of(net) if c.screens or c.wake or c.twines else None,
-        sources=_sources(net, c, damping, waves),
+        bed=bed,
+        sources=(*_sources(net, c, damping, waves), *((bed.told,) if bed else ())),
     )
 
 

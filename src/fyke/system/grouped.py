@@ -28,6 +28,7 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         displaced=made.displaced,
         drag_laws=made.drag_laws,
         faces=made.faces,
+        motion=None,
         sources=(),
         case_text="",
     )

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..case.tubes import CollarSpec, RingSpec
-from ..netting.net import Net, Panel, Side
+from ..netting.lattice import Side
+from ..netting.net import Net, Panel
 from ..netting.rigging import evenly, with_bodies, with_rope
 from ..netting.tubes import ring, with_tubes
 

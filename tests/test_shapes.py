@@ -1,0 +1,301 @@
+"""Netting cut to shape: counts and angles of the trade, tidy edges, areas by formulas."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import fyke
+from fyke.case import CaseError, parse_case
+from fyke.netting.cutting import Taper, cuts_of, lost, rate_of, repeated, spread
+from fyke.netting.faces import faces_of
+from fyke.netting.measures import measure_panel
+from fyke.netting.panel import panel
+
+BAR = 0.05
+TWINE = fyke.Twine("n", 1140.0, 2e-3, fyke.LinearLaw(1e9))
+OTHER = {"bottom": "top", "top": "bottom"}
+
+
+def cut_panel(taper, wide, deep, *, mesh="diamond", ratios=(0.6, 0.8), **options):
+    step = 2.0 * BAR if mesh == "diamond" else BAR
+    size = (wide * step * ratios[0], deep * step * ratios[1])
+    return panel(TWINE, mesh=mesh, meshes=(wide, deep), bar_length=BAR, size=size, taper=taper, **options)
+
+
+@pytest.mark.parametrize(
+    ("taken", "deep", "rate"),
+    [(20, 30, "1N4B"), (25, 25, "AB"), (40, 25, "3T10B"), (10, 25, "3N4B"), (50, 30, "1T3B")],
+)
+def test_rates_are_those_that_lectures_work_out(taken, deep, rate):
+    """Meshes lost, meshes deep and the answer: the first of Fishing Gear Technology, the others of "Net cutting"."""
+    assert rate_of(taken, deep) == rate
+    assert lost(spread(taken, deep, "diamond"), "diamond") == taken
+    assert lost(repeated(cuts_of(rate), deep, "diamond"), "diamond") == pytest.approx(taken, abs=1)
+
+
+@pytest.mark.parametrize(
+    ("rate", "over"),
+    [
+        ("AN", 0.0),
+        ("1N1B", 1 / 3),
+        ("1N2B", 1 / 2),
+        ("1N4B", 2 / 3),
+        ("AB", 1.0),
+        ("1T2B", 2.0),
+        ("1T1B", 3.0),
+    ],
+)
+@pytest.mark.parametrize("narrow", ["bottom", "top"])
+def test_a_side_leans_by_its_rate_and_hanging_ratios(rate, over, narrow):
+    """tan of the angle to the height is D/d E1/E2, D meshes lost over d: the tables of the trade, and geometry."""
+    deep, e1, e2 = 24, 0.6, 0.8
+    cuts = repeated(cuts_of(rate), deep, "diamond")
+    wide = 2 * lost(cuts, "diamond") + 3
+    net = cut_panel(Taper(cuts, cuts, narrow), wide, deep, ratios=(e1, e2))
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        low, high = net.positions[net.panels[0].edge(side)[[0, -1]]]
+        run, rise = (high - low)[1:]
+        inwards = sign * (run if narrow == "top" else -run)
+        assert inwards / rise == pytest.approx(over * e1 / e2, rel=1e-12)
+
+
+def drawn(count, mesh, seed):
+    """Counts of some panels: meshes lost left and right, of height and left over."""
+    numbers = np.random.default_rng(seed)
+    for _ in range(count):
+        yield (*numbers.integers(0, 13, 2), numbers.integers(2, 10), numbers.integers(mesh == "square", 4))
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+@pytest.mark.parametrize("narrow", ["bottom", "top"])
+def test_cut_edges_are_tidy(mesh, narrow):
+    """The ends have their meshes, faces fill the outline, and only the four corners may hang on one bar."""
+    for left, right, deep, rest in drawn(25, mesh, 7):
+        wide = int(left + right + rest)
+        if wide == 0:
+            continue
+        taper = Taper(spread(int(left), int(deep), mesh), spread(int(right), int(deep), mesh), narrow)
+        net = cut_panel(taper, wide, int(deep), mesh=mesh)
+        (where,) = net.panels
+        assert len(where.edge(narrow)) == rest + 1
+        assert len(where.edge(OTHER[narrow])) == wide + 1
+        assert where.shape == ("triangle" if rest == 0 else "trapezoid")
+        bars = np.bincount(net.bars.ravel(), minlength=net.knot_count)
+        sides = [where.edge(side) for side in ("left", "right")]
+        corners = np.unique([side[[0, -1]] for side in sides])
+        assert np.delete(bars, corners).min() >= 2
+        assert bars.min() >= 1
+        on_edge = np.unique(np.concatenate([*sides, where.edge("top"), where.edge("bottom")]))
+        low, high = net.positions[:, 2].min(), net.positions[:, 2].max()
+        inner = np.delete(np.arange(net.knot_count), on_edge)
+        assert set(bars[inner]) <= {2, 3, 4}
+        assert np.all((net.positions[inner, 2] > low) & (net.positions[inner, 2] < high))
+        outline = measure_panel(net, where).outline_area
+        assert faces_of(net).area.sum() == pytest.approx(outline, rel=1e-12)
+
+
+def test_area_and_twine_of_a_trapezoid_by_formulas():
+    """AB on both sides: the area of the trapezoid, and four bars for every whole mesh, shared by two."""
+    wide, deep = 20, 6
+    cuts = "B" * (2 * deep)
+    net = cut_panel(Taper(cuts, cuts), wide, deep)
+    mesh = 2.0 * BAR * np.array([0.6, 0.8])
+    area = 0.5 * (wide + wide - 2 * deep) * mesh[0] * deep * mesh[1]
+    assert measure_panel(net, net.panels[0]).outline_area == pytest.approx(area, rel=1e-12)
+    # Between two rows of k + 1 and k knots lie 2 k bars: rows have wide + 1 knots, then one fewer each.
+    assert net.bar_count == sum(2 * k for k in range(wide - 2 * deep + 1, wide + 1))
+    assert net.rest_length.sum() == pytest.approx(net.bar_count * BAR, rel=1e-12)
+
+
+def test_straight_cuts_are_a_plain_panel():
+    plain, cut = cut_panel(None, 5, 4), cut_panel(Taper("NNNN", "NNNN"), 5, 4)
+    assert cut.labels == plain.labels
+    assert np.array_equal(cut.bars, plain.bars)
+    assert np.array_equal(cut.positions, plain.positions)
+    assert np.array_equal(cut.fixed, plain.fixed)
+
+
+@pytest.mark.parametrize("wrong", ["", "1X2B", "AT", "2T", "B2N3", "1.5N2B"])
+def test_what_is_no_rate_is_told(wrong):
+    with pytest.raises(ValueError, match=r"cutting rate|never comes"):
+        cuts_of(wrong)
+
+
+def test_cuts_that_cannot_be_are_told():
+    with pytest.raises(ValueError, match="no cut B"):
+        repeated(cuts_of("1N2B"), 4, "square")
+    with pytest.raises(ValueError, match="one bar"):
+        repeated(cuts_of("1N1T"), 4, "diamond")
+    with pytest.raises(ValueError, match="of 6 columns"):
+        cut_panel(Taper("B" * 8, "B" * 8), 3, 4)
+    with pytest.raises(ValueError, match="2 rows, where there are 4"):
+        cut_panel(Taper("BB", "BBBB"), 5, 2)  # rows are half meshes
+    with pytest.raises(ValueError, match="join its sides"):
+        fyke.netting.sheet.sheet(
+            fyke.netting.sheet.Netting(TWINE, "diamond", BAR),
+            (5, 2),
+            lambda steps, intervals: steps,
+            shape="x",
+            size=(1.0, 1.0),
+            closed=True,
+            taper=Taper("BBBB", "BBBB"),
+        )
+
+
+def mirrored(net, result, across=1):
+    """Return the largest distance of a knot to its mirror image in the plane of the other two axes (m)."""
+    place, built = result.position[-1], net.positions.copy()
+    image = built.copy()
+    image[:, across] *= -1.0
+    twin = [int(np.argmin(np.abs(built - one).sum(axis=1))) for one in image]
+    other = place[twin].copy()
+    other[:, across] *= -1.0
+    return float(np.abs(other - place).max())
+
+
+@pytest.mark.parametrize("narrow", ["bottom", "top"])
+@pytest.mark.parametrize("rate", ["1N2B", "AB", "1T2B"])
+def test_a_trapezoid_in_a_current_stays_symmetric(rate, narrow):
+    cuts = repeated(cuts_of(rate), 4, "diamond")
+    net = cut_panel(Taper(cuts, cuts, narrow), 2 * lost(cuts, "diamond") + 4, 4, centre=(0.0, 0.0, -1.0))
+    result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)), tolerance=1e-9)
+    assert result.outcome.ok
+    assert mirrored(net, result) < 1e-9 * np.ptp(net.positions, axis=0).max()
+
+
+HEAD = """schema = 1
+[current]
+velocity = [0.3, 0.0, 0.0]
+[twine.main]
+material = "PA"
+diameter = "2 mm"
+[netting.main]
+twine = "main"
+mesh = "diamond"
+bar_length = "50 mm"
+[netting.square]
+twine = "main"
+mesh = "square"
+bar_length = "50 mm"
+[netting.six]
+twine = "main"
+mesh = "hexagonal"
+bar_length = "50 mm"
+long_bar = "50 mm"
+"""
+
+
+def shape(kind, *lines, netting="main"):
+    keys = [f'kind = "{kind}"', f'netting = "{netting}"', "centre = [0.0, 0.0, -1.0]", *lines]
+    return "\n".join([HEAD, "[[gear]]", 'name = "a"', *keys, ""])
+
+
+def test_a_case_cuts_as_the_same_call_does():
+    text = shape("trapezoid", "meshes = [24, 10]", 'cut = ["AN", "1N2B"]', "hanging_ratio = 0.6")
+    net = fyke.build_net(parse_case(text))
+    taper = Taper("N" * 10, repeated("NBB", 10, "diamond"))
+    by_hand = cut_panel(taper, 24, 10, name="a", centre=(0.0, 0.0, -1.0))
+    assert net.labels == by_hand.labels
+    assert net.positions == pytest.approx(by_hand.positions, abs=1e-15)
+    assert np.array_equal(net.bars, by_hand.bars)
+    (where,) = net.panels
+    assert where.taper == taper
+    assert len(where.edge("bottom")) == 24 - 5 + 1
+
+
+def test_lower_says_which_way_it_narrows():
+    for upper, lower in ((24, 14), (14, 24)):
+        for cut in ("", 'cut = "1N2B"'):
+            lines = (f"meshes = [{upper}, 10]", f"lower = {lower}", cut, "hanging_ratio = 0.6")
+            net = fyke.build_net(parse_case(shape("trapezoid", *lines)))
+            where = net.panels[0]
+            assert [len(where.edge(end)) for end in ("top", "bottom")] == [upper + 1, lower + 1]
+
+
+@pytest.mark.parametrize("point", ["up", "down"])
+def test_a_triangle_points_where_it_is_told(point):
+    net = fyke.build_net(
+        parse_case(shape("triangle", "meshes = [8, 6]", f'point = "{point}"', "hanging_ratio = 0.6"))
+    )
+    tip = net.panels[0].edge("top" if point == "up" else "bottom")
+    assert len(tip) == 1
+    heights = net.positions[:, 2]
+    assert heights[tip[0]] == (heights.max() if point == "up" else heights.min())
+
+
+def test_a_rope_along_a_cut_side_is_as_long_as_the_side():
+    """1N2B hung at 0.6, 0.8: an N is a mesh high, a B a bar long."""
+    text = shape("trapezoid", "meshes = [24, 10]", 'cut = "1N2B"', "hanging_ratio = 0.6")
+    rope = '[[gear]]\nkind = "rope"\nname = "r"\ntwine = "main"\nalong = "a.left"\n'
+    net = fyke.build_net(parse_case(text + rope))
+    assert net.rest_length[net.ropes[0].bars].sum() == pytest.approx(5 * 0.1 * 0.8 + 10 * 0.05, rel=1e-12)
+    short = text + rope + "length = 0.5\n"
+    with pytest.raises(CaseError, match=r"an edge of 0.9 m"):
+        parse_case(short)
+
+
+def test_a_saved_panel_keeps_its_cuts(tmp_path):
+    case = parse_case(shape("trapezoid", "meshes = [8, 4]", 'cut = "1N2B"', "hanging_ratio = 0.6"))
+    net = fyke.build_net(case)
+    result = fyke.solve_static(fyke.build_system(net, case))
+    fyke.save(result, tmp_path / "a.nc")
+    again = fyke.load(tmp_path / "a.nc").net.panels[0]
+    assert again.taper == net.panels[0].taper
+    for side in ("left", "right", "top", "bottom"):
+        assert np.array_equal(again.edge(side), net.panels[0].edge(side))
+
+
+SIX = "hanging_ratio = [0.6, 0.6]"
+SPOILT = {
+    "no rate": (
+        shape("trapezoid", "meshes = [24, 10]", 'cut = "1X"', "hanging_ratio = 0.6"),
+        ("[[gear]] 1 cut", "1X", "1N2B or 1T1B", "left and the right"),
+    ),
+    "neither": (
+        shape("trapezoid", "meshes = [24, 10]", "hanging_ratio = 0.6"),
+        ("[[gear]] 1 lower", "neither lower nor cut in the trapezoid", "cutting rate", 'cut = "1N2B"'),
+    ),
+    "too many": (
+        shape("trapezoid", "meshes = [9, 10]", 'cut = "1N2B"', "hanging_ratio = 0.6"),
+        ("[[gear]] 1 cut", "5 and 5 meshes off its sides of 9", "one mesh or more", "fewer"),
+    ),
+    "counts disagree": (
+        shape("trapezoid", "meshes = [24, 10]", "lower = 13", 'cut = "1N2B"', "hanging_ratio = 0.6"),
+        ("[[gear]] 1 cut", "14 of 24 meshes are left", "the 13", "lower = 14"),
+    ),
+    "N and T": (
+        shape("trapezoid", "meshes = [24, 10]", 'cut = "1N1T"', "hanging_ratio = 0.6"),
+        ("[[gear]] 1 cut", "1N1T over 10", "hang on one bar", "one of N and T"),
+    ),
+    "bars of squares": (
+        shape("trapezoid", "meshes = [24, 10]", 'cut = "1N2B"', SIX, netting="square"),
+        ("[[gear]] 1 cut", "1N2B", "no cut B", "2N1T"),
+    ),
+    "triangle of squares": (
+        shape("triangle", "meshes = [20, 10]", SIX, netting="square"),
+        ("[[gear]] 1 kind", "square netting", "one knot", "lower = 1"),
+    ),
+    "hexagons": (
+        shape("triangle", "meshes = [20, 10]", SIX, netting="six"),
+        ("[[gear]] 1 kind", "hexagonal netting", "diamond or square", "panel"),
+    ),
+    "no size": (
+        shape("triangle", "meshes = [20, 10]"),
+        ("[[gear]] 1 size", "neither", "one of size", "hanging_ratio"),
+    ),
+    "held by nothing": (
+        shape("triangle", "meshes = [20, 10]", "hanging_ratio = 0.6", 'fixed = "none"'),
+        ("[[gear]] 1 fixed", "none", "corners", "edges"),
+    ),
+}
+
+
+@pytest.mark.parametrize("name", SPOILT)
+def test_what_is_wrong_is_told_in_four_parts(name):
+    text, pieces = SPOILT[name]
+    with pytest.raises(CaseError) as caught:
+        parse_case(text, "c.toml")
+    told = [(p.where, p.found, p.allowed, p.cure) for p in caught.value.problems]
+    assert any(all(a in b for a, b in zip(pieces, parts, strict=True)) for parts in told), told
+    assert len(told) == 1, told
