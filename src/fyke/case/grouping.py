@@ -55,14 +55,14 @@ def choose_groups(made: Sequence[Made], budget: int | None) -> tuple[int, ...]:
 
 def knots_of(piece: Piece, netting: NettingSpec, group: int) -> int:
     """Count the knots of a piece that is laid with a group."""
-    return sum(_knots(sheet, netting, group) for sheet in piece.sheets(netting))
+    return sum(_knots(sheet, netting, group) for sheet in _sheets(piece, netting))
 
 
 def largest_group(piece: Piece, netting: NettingSpec) -> int:
     """Return the largest group that leaves a mesh along every side, and three around."""
     counts = [
         count // LEAST_AROUND if sheet.rims and axis == 0 else count
-        for sheet in piece.sheets(netting)
+        for sheet in _sheets(piece, netting)
         for axis, count in enumerate(sheet.meshes)
     ]
     return max(1, min(MOST_GROUPED, *counts)) if counts else 1
@@ -93,8 +93,16 @@ def _least(free: Sequence[Made], knots: int, most: int) -> int:
     )
 
 
+def _sheets(piece: Piece, netting: NettingSpec) -> tuple[Sheet, ...]:
+    """Sheets of a piece, none where its keys make none, which is told elsewhere."""
+    try:
+        return piece.sheets(netting)
+    except ValueError:
+        return ()
+
+
 def _divides(piece: Piece, netting: NettingSpec, group: int) -> bool:
-    return all(count % group == 0 for sheet in piece.sheets(netting) for count in sheet.meshes)
+    return all(count % group == 0 for sheet in _sheets(piece, netting) for count in sheet.meshes)
 
 
 def _knots(sheet: Sheet, netting: NettingSpec, group: int) -> int:
@@ -147,7 +155,7 @@ def _of_piece(path: Path, piece: Piece, netting: NettingSpec) -> Iterator[Findin
         return
     most = largest_group(piece, netting)
     if group > most:
-        counts = " and ".join(f"{a} x {b}" for a, b in (sheet.meshes for sheet in piece.sheets(netting)))
+        counts = " and ".join(f"{a} x {b}" for a, b in (sheet.meshes for sheet in _sheets(piece, netting)))
         allowed = f"at most {most}: at least one mesh is left along every side, and three around"
         yield path, f"{group} for {piece.called} of {counts} meshes", allowed, f"write group = {most} or less"
 
@@ -181,7 +189,7 @@ def _too_many(made: Sequence[Made]) -> Iterator[Finding]:
 def rounded(made: Sequence[Made]) -> Iterator[str]:
     """Say which counts of meshes their group does not divide, and what is laid instead."""
     for piece, netting in made:
-        for sheet in piece.sheets(netting):
+        for sheet in _sheets(piece, netting):
             few = laid(sheet, piece.group)
             many = [real / count for real, count in zip(sheet.meshes, few, strict=True)]
             if piece.group > 1 and any(one != piece.group for one in many):
