@@ -484,6 +484,7 @@ def test_the_schema_knows_every_kind():
         "panel",
         "trapezoid",
         "triangle",
+        "box",
         "cylinder",
         "cone",
         "frustum",

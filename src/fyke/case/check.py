@@ -15,9 +15,10 @@ from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
-from .gear_check import gear_findings, reference
+from .gear_check import gear_findings, has_bottom, reference
 from .grouping import grouping_findings
 from .keys import nearest
+from .load_case import load_case_file_problems, load_case_findings
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
@@ -100,7 +101,7 @@ class Parts:
         for index, keys in self.gear_tables():
             if not RIGGING & {keys.get("kind") if isinstance(keys.get("kind"), str) else ""}:
                 name = self.name_of(index)
-                names += [name, f"{name} bottom".strip()] if "bottom" in keys else [name]
+                names += [name, f"{name} bottom".strip()] if has_bottom(keys) else [name]
         return names
 
     def name_of(self, index: int, sheet: Sheet | None = None) -> str:
@@ -161,6 +162,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _waves(parts)
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
+    yield from _load_cases(parts)
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -172,6 +174,7 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
     ):
         for number, problem in enumerate(problems):
             yield (*key, number), problem
+    yield from load_case_file_problems(parts)
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:
@@ -364,3 +367,9 @@ def _waves(parts: Parts) -> Iterator[Finding]:
     water = _valid(Water, parts.raw.get("water", {}))
     if water is not None and "waves" in parts.raw:
         yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
+
+
+def _load_cases(parts: Parts) -> Iterator[Finding]:
+    water = _valid(Water, parts.raw.get("water", {}))
+    depth, gravity = (None, None) if water is None else (water.depth, water.gravity)
+    yield from load_case_findings(parts, depth, gravity)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
 from ..netting.multiples import LEAST_AROUND
+from .box import BoxSpec
 from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
@@ -50,7 +51,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             there = [name for name, _ in parts.items(table)]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
-        if keys.get("kind") in (*_FLAT, None):
+        if keys.get("kind") in (*_FLAT, "box", None):
             yield from _one_size(("gear", index), keys)
     for index, piece in parts.pieces.items():
         path = ("gear", index)
@@ -59,6 +60,8 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             yield from wrong_cuts
             if wrong_cuts:
                 continue
+        if isinstance(piece, BoxSpec):
+            yield from _hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
         if isinstance(piece, RoundSpec):
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
@@ -83,7 +86,7 @@ def _names(parts: Parts) -> Iterator[Finding]:
         if not isinstance(name, str):
             continue
         taken = {name: f"[[gear]] {index + 1}"}
-        if "bottom" in keys:
+        if has_bottom(keys):
             taken[f"{name} bottom"] = f"the bottom of [[gear]] {index + 1}"
         for one, owner in taken.items():
             if one in seen:
@@ -95,6 +98,11 @@ def _names(parts: Parts) -> Iterator[Finding]:
                     "choose another name",
                 )
             seen.setdefault(one, owner)
+
+
+def has_bottom(keys: dict[str, Any]) -> bool:
+    """Whether a part of these keys has netting below it, valid or not."""
+    return keys.get("bottom", keys.get("kind") == "box") is not False
 
 
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
@@ -111,9 +119,8 @@ def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
     asked = {"size", "hanging_ratio"} & keys.keys()
     if len(asked) != 1:
         found = "both size and hanging_ratio" if asked else "neither size nor hanging_ratio"
-        cure = (
-            "leave out one of the two" if asked else "add size = [width, height] in m, or hanging_ratio = 0.6"
-        )
+        sides = "[along x, along y, deep]" if keys.get("kind") == "box" else "[width, height]"
+        cure = "leave out one of the two" if asked else f"add size = {sides} in m, or hanging_ratio = 0.6"
         yield (*path, "size"), found, "one of size and hanging_ratio", cure
 
 
@@ -126,10 +133,7 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if isinstance(piece, CylinderSpec | ConeSpec):
         yield from _one_round_size(path, piece)
         yield from _closing_ratio(path, piece, netting)
-    if netting is not None and isinstance(netting.mesh, Hexagon) and netting.mesh.turned:
-        found = f"hexagons with their long bars round {piece.called}"
-        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
-        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    yield from _hexagons_round(path, piece, netting)
     if netting is None or netting.mesh == "diamond":
         return
     allowed = "diamond netting, which can be gathered in one knot"
@@ -140,6 +144,22 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if piece.floor is not None:
         cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
         yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
+
+
+def _hexagons_round(
+    path: Path, piece: Piece, netting: NettingSpec | None, *, bottom: bool = False
+) -> Iterator[Finding]:
+    """What hexagons must have to close round, and that no bottom of theirs matches the walls of a box."""
+    if netting is None or not isinstance(netting.mesh, Hexagon):
+        return
+    if netting.mesh.turned:
+        found = f"hexagons with their long bars round {piece.called}"
+        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
+        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    if bottom:
+        allowed = "diamond or square netting, whose bottom matches its walls knot by knot"
+        cure = f'write bottom = false, or mesh = "diamond" in [netting.{piece.netting}]'
+        yield (*path, "bottom"), f"a bottom of hexagonal netting in {piece.called}", allowed, cure
 
 
 def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
@@ -190,7 +210,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
     if isinstance(ratio, tuple) and max(ratio) > 1.0 and isinstance(piece, RoundSpec):
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        if isinstance(piece, FlatSpec):
+        if isinstance(piece, FlatSpec | BoxSpec):
             yield from _pair(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
@@ -200,9 +220,10 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
 
 def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec) -> Finding:
     strain = f"which strains the bars by {sheet.strain(netting) * 100:.3g} % before anything acts"
-    if isinstance(piece, FlatSpec):
+    if isinstance(piece, FlatSpec | BoxSpec):
         key = "size" if piece.given_size else "hanging_ratio"
-        found = f"{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
+        of = "" if isinstance(piece, FlatSpec) else "a bottom of " if sheet.sewn else "walls of "
+        found = f"{of}{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
         allowed = f"a frame that the net can span: at most {LARGEST_STRAIN * 100:g} % strain"
         return (*path, key), found, allowed, "check the units of size and bar_length and the number of meshes"
     low, high = sheet.rims or (0.0, 0.0)
@@ -247,7 +268,7 @@ def edge_named(
     sheet, netting = sheets[name]
     if side not in sheet.edges:
         allowed = f"an edge of '{name}': {' or '.join(sheet.edges)}"
-        if sheet.rims:
+        if sheet.closed:
             allowed += "; it closes round and has no other"
         near = nearest(side, sheet.edges) or sheet.edges[1]
         yield key, f"{written(along)} of {what}", allowed, f'did you mean "{name}.{near}"?'

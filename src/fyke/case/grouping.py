@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 from pydantic import Field
 
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import INTERVALS
 from ..netting.multiples import LEAST_AROUND, grouped_meshes
+from .box import BoxSpec
 from .fields import Table, whole
 from .gear import MOST_GROUPED, NettingSpec, Piece, Sheet
 from .places import Path
@@ -47,24 +48,25 @@ def choose_groups(made: Sequence[Made], budget: int | None) -> tuple[int, ...]:
         knots_of(*one, group) for one, group in zip(made, given, strict=True) if group is not None
     )
     most = min(largest_group(*one) for one in free)
-    least = _least(free, left, most)
-    further = range(least, min(most, int(DIVIDING * least)) + 1)
+    groups = [n for n in range(1, most + 1) if all(_corners_meet(piece, n) for piece, _ in free)]
+    least = _least(free, left, groups)
+    further = [n for n in groups if least <= n <= DIVIDING * least]
     chosen = next((group for group in further if all(_divides(*one, group) for one in free)), least)
     return tuple(chosen if group is None else group for group in given)
 
 
 def knots_of(piece: Piece, netting: NettingSpec, group: int) -> int:
     """Count the knots of a piece that is laid with a group."""
-    return sum(_knots(sheet, netting, group) for sheet in piece.sheets(netting))
+    return sum(_knots(sheet, netting, group) for sheet in _sheets(piece, netting))
 
 
 def largest_group(piece: Piece, netting: NettingSpec) -> int:
     """Return the largest group that leaves a mesh along every side, and three around."""
-    counts = [
-        count // LEAST_AROUND if sheet.rims and axis == 0 else count
-        for sheet in piece.sheets(netting)
-        for axis, count in enumerate(sheet.meshes)
-    ]
+    counts = []
+    for sheet in _sheets(piece, netting):
+        across = sheet.meshes[0] // LEAST_AROUND if sheet.rims else sheet.meshes[0]
+        sides = [count for count, _ in sheet.sides] if sheet.sides else [across]
+        counts += [*sides, sheet.meshes[1]]
     return max(1, min(MOST_GROUPED, *counts)) if counts else 1
 
 
@@ -86,37 +88,55 @@ def _why_not(netting: NettingSpec, piece: Piece | None = None) -> str:
     return ""
 
 
-def _least(free: Sequence[Made], knots: int, most: int) -> int:
-    """The least group of these pieces that makes no more knots, or the largest."""
+def _least(free: Sequence[Made], knots: int, groups: Sequence[int]) -> int:
+    """The least of these groups that makes no more knots of these pieces, or the last."""
     return next(
-        (group for group in range(1, most) if sum(knots_of(*one, group) for one in free) <= knots), most
+        (group for group in groups if sum(knots_of(*one, group) for one in free) <= knots), groups[-1]
     )
 
 
+def _corners_meet(piece: Piece, group: int) -> bool:
+    """Whether the corners of a box are at knots."""
+    return not isinstance(piece, BoxSpec) or all(count % group == 0 for count in piece.meshes[:2])
+
+
+def _sheets(piece: Piece, netting: NettingSpec) -> tuple[Sheet, ...]:
+    """Sheets of a piece, none where its keys make none, which is told elsewhere."""
+    try:
+        return piece.sheets(netting)
+    except ValueError:
+        return ()
+
+
 def _divides(piece: Piece, netting: NettingSpec, group: int) -> bool:
-    return all(count % group == 0 for sheet in piece.sheets(netting) for count in sheet.meshes)
+    return all(count % group == 0 for sheet in _sheets(piece, netting) for count in sheet.meshes)
 
 
 def _knots(sheet: Sheet, netting: NettingSpec, group: int) -> int:
     """Knots of a sheet, those that it shares with another one left out, and those within bars in segments."""
-    meshes, mesh, closed = laid(sheet, group), netting.mesh, sheet.rims is not None
+    meshes, mesh, closed = laid(sheet, group), netting.mesh, sheet.closed
+    if sheet.taper is not None:
+        grid = sheet.lattice(mesh)
+        return len(grid.knots) + (netting.segments - 1) * len(grid.bars)
     if isinstance(mesh, Hexagon):
         columns, rows = mesh.counts(meshes)
         knots = (2 * columns + (not closed)) * (rows + 1)
         bars = 2 * columns * (rows + 1) + columns * rows + (rows + 1) // 2 * (not closed)
         return knots + (netting.segments - 1) * bars
     i, j = (INTERVALS[mesh] * count for count in meshes)
-    rows = j + 1 - sheet.sewn - sheet.tip
+    rows = j + 1 - (sheet.sewn and closed) - sheet.tip
     if mesh == "diamond":
         knots, bars = ((i + (not closed)) * rows + 1) // 2 + sheet.tip, i * j
     else:
         knots, bars = (i + (not closed)) * rows, i * (j + 1) + (i + (not closed)) * j
+    if sheet.sewn and not closed:
+        knots -= 2 * sum(meshes)
     return knots + (netting.segments - 1) * bars
 
 
 def laid(sheet: Sheet, group: int) -> tuple[int, int]:
     """Return the meshes that a sheet is laid with."""
-    return grouped_meshes(sheet.meshes, group, closed=sheet.rims is not None)
+    return grouped_meshes(sheet.meshes, group, closed=sheet.closed)
 
 
 def grouping_findings(parts: Parts) -> Iterator[Finding]:
@@ -147,9 +167,16 @@ def _of_piece(path: Path, piece: Piece, netting: NettingSpec) -> Iterator[Findin
         return
     most = largest_group(piece, netting)
     if group > most:
-        counts = " and ".join(f"{a} x {b}" for a, b in (sheet.meshes for sheet in piece.sheets(netting)))
+        counts = " and ".join(f"{a} x {b}" for a, b in (sheet.meshes for sheet in _sheets(piece, netting)))
         allowed = f"at most {most}: at least one mesh is left along every side, and three around"
         yield path, f"{group} for {piece.called} of {counts} meshes", allowed, f"write group = {most} or less"
+    elif not _corners_meet(piece, group):
+        sides = cast(BoxSpec, piece).meshes[:2]
+        there = [n for n in range(1, most + 1) if _corners_meet(piece, n)]
+        found = f"{group} for {piece.called} of {sides[0]} x {sides[1]} meshes between its corners"
+        allowed = "a group that divides both, so that the corners are at knots: " + ", ".join(map(str, there))
+        near = min(there, key=lambda n: abs(n - group))
+        yield path, found, allowed, f"write group = {near}"
 
 
 def _refused(path: Path, group: int, netting: NettingSpec, piece: Piece | None = None) -> Finding:
@@ -181,7 +208,7 @@ def _too_many(made: Sequence[Made]) -> Iterator[Finding]:
 def rounded(made: Sequence[Made]) -> Iterator[str]:
     """Say which counts of meshes their group does not divide, and what is laid instead."""
     for piece, netting in made:
-        for sheet in piece.sheets(netting):
+        for sheet in _sheets(piece, netting):
             few = laid(sheet, piece.group)
             many = [real / count for real, count in zip(sheet.meshes, few, strict=True)]
             if piece.group > 1 and any(one != piece.group for one in many):

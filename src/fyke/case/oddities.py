@@ -59,11 +59,13 @@ def _thin_knots(case: Case) -> Iterator[str]:
 
 def _frames(case: Case) -> Iterator[str]:
     for netting, sheet in case.sheets:
-        shape = "netting" if sheet.rims else "panel"
+        shape = "netting" if sheet.closed else "panel"
         what = f"{shape} '{sheet.name}'" if sheet.name else f"the {shape}"
         on, sides = ("its frame", ("width", "height"))
         if sheet.rims:
             on, sides = ("its rims", ("mean way round", "height along the netting"))
+        if sheet.sides:
+            on, sides = ("the box", ("way round", "depth"))
         strain = sheet.strain(netting)
         # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
         if strain > 1e-9:

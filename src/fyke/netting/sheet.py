@@ -50,6 +50,7 @@ def sheet(
     closed: bool = False,
     tip: bool = False,
     taper: Taper | None = None,
+    folds: tuple[int, ...] = (),
     fixed: Edge = "edges",
     name: str = "",
 ) -> Net:
@@ -57,11 +58,11 @@ def sheet(
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
     knots is the first; tip: the lowest row is one knot; taper: how its sides are cut, meshes and size being those of
-    the wide end; fixed: which knots are held. Knots are labelled "i-j", with
-    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
-    "0-0>1-1.1", those of grouped netting by the real knots at their places. ValueError for hexagons that close round
-    with their long bars along the width, or run to a tip, for netting both cut and closed, and for netting that cannot
-    be grouped.
+    the wide end; folds: meshes from the left at which it is folded; fixed: which knots are held. Knots are labelled
+    "i-j", with "name:" before it when there is a name; those within a bar of several segments by the bar's ends and
+    their number, "0-0>1-1.1"; those of grouped netting by the real knots at their places. ValueError for hexagons that
+    close round with their long bars along the width, or run to a tip, for netting both cut and closed, and for netting
+    that cannot be grouped.
     """
     few = _fewer(netting, meshes, closed)
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
@@ -110,6 +111,7 @@ def sheet(
         long_bar=hexagon.long_bar * netting.bar_length if hexagon else 0.0,
         turned=hexagon.turned if hexagon else False,
         cuts=(taper.left, taper.right, taper.narrow) if taper else (),
+        folds=tuple(round(grid.intervals[0] * fold / meshes[0]) for fold in folds),
         grouped_from=None if few.meshes == meshes else meshes,
     )
     side_by_side, longer, many = few.multiples(grid, size, closed=closed, tip=tip)

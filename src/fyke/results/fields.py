@@ -31,8 +31,8 @@ FRAME_FIELDS: tuple[Field, ...] = (
         "tension",
         ("time", "bar"),
         "N",
-        "tension of every bar, of one real bar where it stands for several, 0 where slack; axial force of tubes, below 0 "
-        "where they push",
+        "tension of every bar, of one real bar where it stands for several, 0 where slack; axial force of tubes, "
+        "below 0 where they push",
     ),
     Field(
         "bar_drag",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..case.tubes import CollarSpec, RingSpec
-from ..netting.lattice import Side
+from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.rigging import evenly, with_bodies, with_rope
 from ..netting.tubes import ring, with_tubes
@@ -56,10 +56,10 @@ def free_rings(case: Case) -> list[Net]:
     ]
 
 
-def _edge(net: Net, along: str) -> tuple[Panel, Side]:
+def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
     """Return the netting and the edge of it that NAME.EDGE says."""
     name, _, side = along.rpartition(".")
-    return next(panel for panel in net.panels if panel.name == name), cast(Side, side)
+    return next(panel for panel in net.panels if panel.name == name), cast("Side | Corner", side)
 
 
 def _places(net: Net, bodies: BodiesSpec) -> Indices:
