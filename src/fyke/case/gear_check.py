@@ -19,6 +19,7 @@ from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
 from .tapered_check import cutting
 from .tube_check import tubular_findings
+from .tubes import TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -70,9 +71,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
         yield from _rope(("gear", index), rope, parts, sheets)
     for index, part in parts.tubulars.items():
         yield from tubular_findings(("gear", index), part, parts.name_of(index))
-        if part.along is not None:
-            called = f"{part.kind} '{parts.name_of(index)}'"
-            yield from _way(("gear", index), called, part.along, parts, sheets)
+        yield from _way(("gear", index), part, parts, sheets)
     for index, bodies in parts.bodies.items():
         yield from _bodies(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
@@ -301,14 +300,17 @@ def _rope(
 
 
 def _way(
-    path: Path, called: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+    path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
-    """What is wrong with the edge that a ring or a collar follows."""
-    for one in edge_named(path, called, along, parts, sheets):
+    """What is wrong with the edge that a ring or a collar follows, if it follows one."""
+    if part.along is None:
+        return
+    called = f"{part.kind} '{parts.name_of(cast(int, path[1]))}'"
+    for one in edge_named(path, called, part.along, parts, sheets):
         if len(one) == 4:
             yield one
         elif one[0] == 1:
-            yield _one_knot(path, called, along)
+            yield _one_knot(path, called, part.along)
 
 
 def _one_knot(path: Path, called: str, along: str) -> Finding:

@@ -50,7 +50,19 @@ from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.hanging import hanging
 from ..system.system import State, System
-from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, RINGS, SUMMARY, WAVES, claim, make_sure_of_room, stopped
+from .folder import (
+    BARS,
+    CHECKPOINT,
+    KNOTS,
+    PARTS,
+    RESULT,
+    RINGS,
+    SUMMARY,
+    WAVES,
+    claim,
+    make_sure_of_room,
+    stopped,
+)
 from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
 from .progress import progress_bar
 from .show import (
