@@ -78,7 +78,19 @@ def _memory() -> float:
 
 def _clear(folder: Path) -> None:
     pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
-    for name in (RESULT, SUMMARY, KNOTS, BARS, PARTS, RINGS, WAVES, LOADS, LOADS_BY_PART, CHECKPOINT, *pictures):
+    for name in (
+        RESULT,
+        SUMMARY,
+        KNOTS,
+        BARS,
+        PARTS,
+        RINGS,
+        WAVES,
+        LOADS,
+        LOADS_BY_PART,
+        CHECKPOINT,
+        *pictures,
+    ):
         (folder / name).unlink(missing_ok=True)
     for one in (folder / LOAD_CASES).glob("*/"):
         _clear(one)
