@@ -179,6 +179,17 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
 
 
+def test_the_motion_of_the_template_can_be_used(tmp_path):
+    lines = template().splitlines()
+    (tmp_path / "motion.csv").write_text("time,dx,dy,dz\n0,0,0,0\n2,0,0,0.1\n")
+    first = lines.index("# [[motion]]")
+    block = [line[2:].replace('"cage.top"', '".top"') for line in lines[first : lines.index("", first)]]
+    text = "\n".join([*lines[:first], *block, *lines[lines.index("", first) :]])
+    dynamic = text.replace('kind = "static"', 'kind = "dynamic"\nduration = 2.0')
+    case = parse_case(dynamic, path=tmp_path / "case.toml")
+    assert case.motion[0].model_fields_set == set(type(case.motion[0]).model_fields)
+
+
 def beside_netting_and_twine(key, lines):
     """Change what keys of netting and twine cannot stand beside."""
     if key == "long_bar":
@@ -205,7 +216,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
         lines.index("", waves),
     )
-    parts = gear_of_the_template(lines)
+    moved = lines.index("# [[motion]]")
+    parts = {*gear_of_the_template(lines), *range(moved, lines.index("", moved))}
     for number, line in enumerate(lines):
         words = ("The", "A ", "For", "By")
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(words) or number in parts:

@@ -18,8 +18,10 @@ from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .grouping import GroupingSpec, choose_groups
 from .load_case import LoadCaseSpec
+from .motion import MotionSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
@@ -99,6 +101,7 @@ Gear = Annotated[
     | ConeSpec
     | FrustumSpec
     | BoxSpec
+    | SeamSpec
     | RopeSpec
     | SinkersSpec
     | FloatsSpec,
@@ -158,6 +161,7 @@ class Case(Table):
         description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
     )
     grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
+    motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
     shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
@@ -191,6 +195,8 @@ class Case(Table):
             made, choose_groups(made, self.grouping.knots if self.grouping else None), strict=True
         ):
             piece.gather(group)
+        for motion in self.motion:
+            motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
@@ -232,6 +238,11 @@ class Case(Table):
     def pieces(self) -> tuple[Piece, ...]:
         """The gear that is netting."""
         return tuple(part for part in self.gear if isinstance(part, Piece))
+
+    @property
+    def seams(self) -> tuple[SeamSpec, ...]:
+        """The gear that is seams."""
+        return tuple(part for part in self.gear if isinstance(part, SeamSpec))
 
     @property
     def ropes(self) -> tuple[RopeSpec, ...]:

@@ -23,6 +23,7 @@ from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
+from .moves import motion_of
 from .rigging import rigged
 from .system import Displaced, System
 
@@ -51,7 +52,7 @@ def build_system(net: Net, case: Case) -> System:
         waves=_waves(case),
         surface=True,
     )
-    return replace(system, case_text=case.text)
+    return replace(system, case_text=case.text, motion=motion_of(net, case))
 
 
 def _waves(case: Case) -> Waves | None:

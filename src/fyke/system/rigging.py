@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
+from ..netting.joining import sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.rigging import evenly, with_bodies, with_rope
@@ -17,8 +18,10 @@ Indices = NDArray[np.int64]
 
 
 def rigged(net: Net, case: Case) -> Net:
-    """Return the netting of a case with its ropes, then its floats and sinkers, in the order of the file."""
+    """Return the netting of a case with its seams, its ropes, then its floats and sinkers, in the order of the file."""
     twines = case.twines
+    for seam in case.seams:
+        net = sewn(net, *(cast("tuple[str, Side | Corner]", one.rpartition(".")[::2]) for one in seam.join))
     for rope in case.ropes:
         panel, side = _edge(net, rope.along)
         net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
@@ -35,14 +38,24 @@ def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
     return next(panel for panel in net.panels if panel.name == name), cast("Side | Corner", side)
 
 
+def _labelled(net: Net, label: str) -> int:
+    """Return the knot of a label "NAME:i-j", which it may have lost to another knot in a seam.
+
+    Of grouped netting it is the one nearest to this knot of the real netting.
+    """
+    name, _, place = label.rpartition(":")
+    panel = next(panel for panel in net.panels if panel.name == name)
+    i, j = map(int, place.split("-"))
+    if panel.grouped_from:
+        away = panel.flat - panel.real_place(i, j)
+        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
+    return int(panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)][0])
+
+
 def _places(net: Net, bodies: BodiesSpec) -> Indices:
     """Return the knots at which floats or sinkers are."""
     if bodies.along is None:
-        number = {label: knot for knot, label in enumerate(net.labels)}
-        return np.array(
-            [number[label] if label in number else _nearest(net, label) for label in bodies.at or ()],
-            dtype=np.int64,
-        )
+        return np.array([_labelled(net, label) for label in bodies.at or ()], dtype=np.int64)
     panel, side = _edge(net, bodies.along)
     knots = panel.edge(side)
     if np.all(knots == knots[0]):
@@ -52,11 +65,3 @@ def _places(net: Net, bodies: BodiesSpec) -> Indices:
     # As many as hang on the real edge, each at the nearest knot that there is.
     real = round((len(knots) - 1) * panel.group[axis]) + (not closed)
     return evenly(knots, bodies.count or real, closed=closed, real=real)
-
-
-def _nearest(net: Net, label: str) -> int:
-    """Return the knot nearest to a knot of the real netting that is grouped here."""
-    name, _, place = label.rpartition(":")
-    panel = next(one for one in net.panels if one.name == name)
-    flat = panel.flat - panel.real_place(*map(int, place.split("-")))
-    return int(panel.knots[np.argmin(np.einsum("kq,kq->k", flat, flat))])
