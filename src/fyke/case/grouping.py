@@ -116,7 +116,10 @@ def _knots(sheet: Sheet, netting: NettingSpec, group: int) -> int:
     """Knots of a sheet, those that it shares with another one left out, and those within bars in segments."""
     meshes, mesh, closed = laid(sheet, group), netting.mesh, sheet.closed
     if sheet.taper is not None:
-        grid = sheet.lattice(mesh)
+        try:
+            grid = sheet.lattice(mesh)
+        except ValueError:
+            return 0  # cuts that cannot be, which are told elsewhere
         return len(grid.knots) + (netting.segments - 1) * len(grid.bars)
     if isinstance(mesh, Hexagon):
         columns, rows = mesh.counts(meshes)

@@ -120,6 +120,12 @@ def _seams(case: Case) -> Iterator[str]:
         one, other = (cast("tuple[str, Side | Corner]", edge.rpartition(".")[::2]) for edge in seam.join)
         both = [owner[name] for name in dict.fromkeys((one[0], other[0]))]
         pieces = [piece for k, piece in enumerate(both) if piece not in both[:k]]
+        groups = {piece.group for piece in pieces}
+        if len(groups) > 1:
+            yield (
+                f"Seam '{seam.name}' joins netting whose groups differ, {' and '.join(map(str, sorted(groups)))}: the "
+                "finer meshes are gathered at the knots of the coarser; give both the same group."
+            )
         net = together(
             [
                 piece.lay(case.netting[piece.netting], case.twines[case.netting[piece.netting].twine])

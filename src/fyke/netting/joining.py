@@ -162,4 +162,8 @@ def sewn(net: Net, one: tuple[str, Side | Corner], other: tuple[str, Side | Corn
     """Return the net with two edges of panels, each the name of a panel and an edge of it, joined knot by knot."""
     stays, goes = stitches(net, one, other)
     apart = stays != goes
-    return joined(net, stays[apart], goes[apart])
+    # Every real knot of the edge that goes becomes one with another.
+    panels, real = {panel.name: panel for panel in net.panels}, np.ones(net.knot_count)
+    for name, side in (one, other):
+        real[panels[name].edge(side)] = panels[name].real_along(side)
+    return joined(net, stays[apart], goes[apart], real[goes[apart]])

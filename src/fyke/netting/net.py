@@ -100,7 +100,7 @@ class Panel:
         there = np.flatnonzero(grid.knots[:, 0] == self.folds[number])
         return self.knots[there[np.argsort(grid.knots[there, 1], kind="stable")]]
 
-    def real_along(self, which: Side) -> Array:
+    def real_along(self, which: Side | Corner) -> Array:
         """How many real knots of an edge each of its knots stands for, in the order of edge()."""
         along = 0 if which in ("top", "bottom") else 1
         many = np.full(len(self.edge(which)), self.group[along])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, replace
 
 import numpy as np
@@ -23,6 +23,7 @@ from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
+from .motion import Motion, Move
 from .moves import motion_of
 from .rigging import free_rings, rigged
 from .system import Displaced, System
@@ -85,11 +86,12 @@ def make_system(
     waves: Waves | None = None,
     surface: bool = False,
     bed: Bed | None = None,
+    moves: Sequence[Move] = (),
 ) -> System:
     """Freeze a net in water: masses, weights and drag coefficients of every knot and bar.
 
     surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere; bed: the
-    ground that knots come to lie on.
+    ground that knots come to lie on; moves: of held knots, ValueError for free ones.
     """
     w = water or Water()
     c = coefficients or Coefficients()
@@ -141,6 +143,7 @@ def make_system(
         surface=surface or waves is not None,
         faces=faces_of(net) if c.screens or c.wake or c.twines else None,
         bed=bed,
+        motion=Motion(net, moves) if moves else None,
         sources=(*_sources(net, c, damping, waves), *((bed.told,) if bed else ())),
     )
 

@@ -66,14 +66,17 @@ def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
 
 
 def _labelled(net: Net, label: str) -> int:
-    """Return the knot of a label "NAME:i-j", which it may have lost in a seam; of grouped netting the nearest to it."""
+    """Return the knot of a label "NAME:i-j", which it may have lost to another knot in a seam.
+
+    Of grouped netting it is the one nearest to this knot of the real netting.
+    """
     name, _, place = label.rpartition(":")
     panel = next(panel for panel in net.panels if panel.name == name)
     i, j = map(int, place.split("-"))
-    if panel.grouped_from is None:
-        return int(panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)][0])
-    flat = panel.flat - panel.real_place(i, j)
-    return int(panel.knots[np.argmin(np.einsum("kq,kq->k", flat, flat))])
+    if panel.grouped_from:
+        away = panel.flat - panel.real_place(i, j)
+        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
+    return int(panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)][0])
 
 
 def _places(net: Net, bodies: BodiesSpec) -> Indices:
