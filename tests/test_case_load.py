@@ -192,7 +192,8 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     block = [lines[i][2:] for i in parts]
     block[:10] = [line for line in block[:10] if not line.startswith(left_out)]
     case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
-    assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
+    kinds = ["panel", "cylinder", "rope", "collar", "ring", "ring", "sinkers", "floats"]
+    assert [part.kind for part in case.gear] == kinds
 
 
 def test_the_motion_of_the_template_can_be_used(tmp_path):
@@ -256,7 +257,9 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')
             needed = [one for one in size if not one.startswith(f"{key} =")]
             shown = [*lines[:waves], "[waves]", *needed, line[2:], *lines[after:]]
-        if key in ("bars", "knots"):
+        if lines[number - 1].startswith("# [grouping]"):
+            shown[number - 1] = "[grouping]"
+        elif key in ("bars", "knots"):
             (tmp_path / "drag.csv").write_text("reynolds,normal,tangential\n10,2,0.1\n1000,1,0.1\n")
             before = max(i for i, old in enumerate(lines[:number]) if old.startswith(f"{key} ="))
             shown[before] = ""
@@ -268,10 +271,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [old for old in shown if not old.startswith("velocity")]
             needed = next((i for i, old in enumerate(shown) if old.startswith(f"# {beside.get(key)} =")), 0)
             shown[needed] = shown[needed].removeprefix("# " * bool(needed))
-        if '"power"' in line:
-            shown = [old.replace("# depth =", "depth =") for old in shown]
-        if key == "positions":
-            shown = [old.replace("# [compare]", "[compare]") for old in shown]
+        for opened in ("# depth =",) * ('"power"' in line) + ("# [compare]",) * (key == "positions"):
+            shown = [old.replace(opened, opened[2:]) for old in shown]
         if key in ("duration", "stepper", "rtol", "atol", "max_step", "settle_force", "settle_energy"):
             shown = [old.replace('kind = "static"', 'kind = "dynamic"') for old in shown]
             shown = [old.replace("# duration", "duration") for old in shown]
