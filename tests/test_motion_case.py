@@ -10,6 +10,7 @@ import fyke
 from fyke.case import CaseError, load_case, parse_case
 from fyke.case.motion import read_motion
 from fyke.cli.check import check_case, judge
+from fyke.cli.export import case_of
 from fyke.live.study import Study
 from fyke.results import flow_direction, mean_current
 from fyke.system.build import build_net, build_system
@@ -144,6 +145,20 @@ def test_a_file_is_followed(tmp_path):
     assert x[:, 2] + 5 == pytest.approx(away[:, 1] * math.sin(roll) + away[:, 2] * math.cos(roll), abs=1e-6)
     assert v.mean(axis=0) == pytest.approx([np.cos(4.23), -np.sin(4.23), 0.0], abs=1e-4)
     assert read_motion(tmp_path / "ship.csv") is read_motion(tmp_path / "ship.csv")
+
+
+def test_a_result_without_its_record_has_no_case(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.csv").write_text("time,dx,dy,dz\n0,0,0,0\n2,0,0,0.1\n")
+    case = parse_case(text_of('[[motion]]\nfile = "m.csv"\n'), "m.toml")
+    net = build_net(case)
+    result = fyke.simulate(build_system(net, case), duration=0.02, every=0.01)
+    assert result.position[-1][net.fixed] == pytest.approx(
+        net.positions[net.fixed] + [0, 0, 0.001], abs=1e-12
+    )
+    assert case_of(result) is not None
+    (tmp_path / "m.csv").unlink()
+    assert case_of(result) is None
 
 
 def test_a_towed_case_is_judged_and_seen_from_the_carriage(tmp_path, capsys):
