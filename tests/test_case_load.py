@@ -176,7 +176,8 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     block = [lines[i][2:] for i in parts]
     block[:10] = [line for line in block[:10] if not line.startswith(left_out)]
     case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
-    assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
+    kinds = ["panel", "cylinder", "rope", "collar", "ring", "ring", "sinkers", "floats"]
+    assert [part.kind for part in case.gear] == kinds
 
 
 def test_the_motion_of_the_template_can_be_used(tmp_path):
@@ -239,7 +240,9 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')
             needed = [one for one in size if not one.startswith(f"{key} =")]
             shown = [*lines[:waves], "[waves]", *needed, line[2:], *lines[after:]]
-        if key in ("bars", "knots"):
+        if lines[number - 1].startswith("# [grouping]"):
+            shown[number - 1] = "[grouping]"
+        elif key in ("bars", "knots"):
             (tmp_path / "drag.csv").write_text("reynolds,normal,tangential\n10,2,0.1\n1000,1,0.1\n")
             before = max(i for i, old in enumerate(lines[:number]) if old.startswith(f"{key} ="))
             shown[before] = ""

@@ -16,6 +16,7 @@ from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, has_bottom, reference
+from .grouping import grouping_findings
 from .keys import nearest
 from .load_case import load_case_file_problems, load_case_findings
 from .motion_check import motion_file_problems, motion_findings
@@ -23,12 +24,14 @@ from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
 from .seams import SeamSpec
+from .tube_check import tube_findings
+from .tubes import TubeSpec, TubularSpec
 from .twine import MaterialSpec, TableSpec, TwineSpec
 from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"seam", "rope", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"seam", "rope", "ring", "collar", "sinkers", "floats"}  # kinds of gear that are not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -43,6 +46,7 @@ class Parts:
     raw: dict[str, Any]
     materials: dict[str, Material]
     twines: dict[str, TwineSpec]
+    tubes: dict[str, TubeSpec]
     nettings: dict[str, NettingSpec]
     gear: dict[int, Part]
     folder: FilePath
@@ -60,6 +64,7 @@ class Parts:
             raw,
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
+            _named(TubeSpec, raw, "tube"),
             _named(NettingSpec, raw, "netting"),
             {i: part for i, part in parts.items() if part is not None},
             folder,
@@ -85,6 +90,11 @@ class Parts:
     def ropes(self) -> dict[int, RopeSpec]:
         """Gear that is ropes, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
+
+    @property
+    def tubulars(self) -> dict[int, TubularSpec]:
+        """Gear that is made of tubes, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, TubularSpec)}
 
     @property
     def bodies(self) -> dict[int, BodiesSpec]:
@@ -152,7 +162,9 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
+    yield from tube_findings(parts)
     yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
+    yield from grouping_findings(parts)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)

@@ -11,6 +11,7 @@ from ..netting.joining import stitches
 from ..netting.lattice import Corner, Side, hanging_ratios
 from ..netting.together import together
 from .gear import LARGEST_STRAIN
+from .grouping import rounded
 from .motion_check import motion_oddities
 from .schema import Case
 from .water_check import current_oddities
@@ -32,6 +33,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
         *motion_oddities(case),
     )
@@ -93,8 +95,11 @@ def _unused(case: Case) -> Iterator[str]:
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
     for name in sorted(case.twine.keys() - spun):
         yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
-    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
-        yield f"Material '{name}' is not used by any twine."
+    for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
+        yield f"Tube '{name}' is not used by any ring or collar."
+    made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
+    for name in sorted(case.material.keys() - made):
+        yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 
 def _no_effect(case: Case) -> Iterator[str]:
@@ -115,6 +120,12 @@ def _seams(case: Case) -> Iterator[str]:
         one, other = (cast("tuple[str, Side | Corner]", edge.rpartition(".")[::2]) for edge in seam.join)
         both = [owner[name] for name in dict.fromkeys((one[0], other[0]))]
         pieces = [piece for k, piece in enumerate(both) if piece not in both[:k]]
+        groups = {piece.group for piece in pieces}
+        if len(groups) > 1:
+            yield (
+                f"Seam '{seam.name}' joins netting whose groups differ, {' and '.join(map(str, sorted(groups)))}: the "
+                "finer meshes are gathered at the knots of the coarser; give both the same group."
+            )
         net = together(
             [
                 piece.lay(case.netting[piece.netting], case.twines[case.netting[piece.netting].twine])

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
+from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .box import BoxSpec
@@ -16,6 +17,7 @@ from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .grouping import GroupingSpec, choose_groups
 from .load_case import LoadCaseSpec
 from .motion import MotionSpec
 from .quantity import Quantity, wrong
@@ -24,6 +26,7 @@ from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
+from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -102,6 +105,8 @@ Gear = Annotated[
     | BoxSpec
     | SeamSpec
     | RopeSpec
+    | RingSpec
+    | CollarSpec
     | SinkersSpec
     | FloatsSpec,
     Field(discriminator="kind"),
@@ -153,12 +158,16 @@ class Case(Table):
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
+    tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
+        default={}, description="tubes by name"
+    )
     netting: Annotated[
         dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
     ] = Field(description="nettings by name")
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, sinkers and floats, one [[gear]] each"
     )
+    grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
     motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
@@ -188,6 +197,11 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        made = [(one, self.netting[one.netting]) for one in self.pieces if one.netting in self.netting]
+        for (piece, _), group in zip(
+            made, choose_groups(made, self.grouping.knots if self.grouping else None), strict=True
+        ):
+            piece.gather(group)
         for motion in self.motion:
             motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
@@ -223,6 +237,12 @@ class Case(Table):
         return {name: spec.twine(name) for name, spec in self.twine.items()}
 
     @property
+    def tubes(self) -> dict[str, Tube]:
+        """The tubes of rings and collars, by name."""
+        own = {name: spec.material(name) for name, spec in self.material.items()}
+        return {name: spec.tube(own) for name, spec in self.tube.items()}
+
+    @property
     def folder(self) -> Path:
         """The folder that file names count from: of the case file, the present one for a text."""
         return self._path.parent if self._path else Path()
@@ -241,6 +261,11 @@ class Case(Table):
     def ropes(self) -> tuple[RopeSpec, ...]:
         """The gear that is ropes."""
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def tubulars(self) -> tuple[TubularSpec, ...]:
+        """The gear that is made of tubes."""
+        return tuple(part for part in self.gear if isinstance(part, TubularSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:

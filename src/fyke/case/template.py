@@ -75,6 +75,10 @@ knot_diameter = "3.5 mm"             # leave out for knotless netting
 # orientation = "T0"                 # of hexagons: long bars along the height (T0) or the width (T90)
 # knot_density = 1140.0              # kg/m3, the twine's by default
 # segments = 2                       # straight pieces of every bar, so that it can bow; 1 by default
+# group = 4                          # one mesh is laid for 4 x 4; 1 by default; also in one [[gear]] of netting alone
+
+# [grouping]                         # instead of group: as fine as so many knots of all netting together allow
+# knots = 5000
 
 [[gear]]                             # one for every part
 kind = "panel"
@@ -106,6 +110,34 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "main"
 # along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
 # length = "2.5 m"                   # unloaded, that of the edge by default
+# [tube.pipe]                        # of rings and collars
+# material = "HDPE"                  # HDPE, steel or your own: density, modulus, yield stress where you give none
+# diameter = "315 mm"                # outer
+# wall = "17.9 mm"
+# contents = "air"                   # air | water
+# density = 958.0                    # kg/m3, of the wall
+# youngs_modulus = "900 MPa"
+# mass_per_length = "18 kg/m"        # with what is fitted to it; that of the wall by default
+# yield_stress = "26 MPa"            # which the largest stress is compared with
+# [[gear]]
+# kind = "collar"                    # floats, and sets the edge free
+# name = "collar"
+# tube = "pipe"
+# tubes = 2                          # side by side
+# rigid = false                      # true: it keeps its shape
+# along = "cage.top"
+# [[gear]]
+# kind = "ring"                      # such as a sinker tube
+# name = "sinker tube"
+# tube = "pipe"
+# along = "cage.bottom"
+# [[gear]]
+# kind = "ring"                      # of its own, its knots "hoop:0", "hoop:1" ...
+# name = "hoop"
+# tube = "pipe"
+# diameter = "25 m"
+# centre = [0.0, 0.0, -15.0]
+# knots = 48
 # [[gear]]
 # kind = "sinkers"
 # name = "weights"
