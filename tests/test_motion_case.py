@@ -301,3 +301,67 @@ def test_all_faults_at_once_and_exit_code(tmp_path, capsys):
     assert check_case(file, json=True) == 2
     told = json.loads(capsys.readouterr().out)
     assert len(told["problems"]) == 4
+
+
+# Names on gear of every kind
+
+
+BOX = """schema = 1
+[current]
+velocity = [0.1, 0.0, 0.0]
+[twine.main]
+material = "PA"
+diameter = "1.5 mm"
+[netting.main]
+twine = "main"
+mesh = "square"
+bar_length = "0.1 m"
+[[gear]]
+kind = "box"
+name = "box"
+netting = "main"
+meshes = [4, 4, 3]
+size = [0.4, 0.4, 0.3]
+top = [0.0, 0.0, -1.0]
+fixed = "edges"
+"""
+COLLAR = """[tube.pipe]
+material = "HDPE"
+diameter = "32 mm"
+wall = "3 mm"
+[[gear]]
+kind = "collar"
+name = "collar"
+tube = "pipe"
+along = "box.top"
+"""
+
+
+def test_names_of_a_box():
+    for name, count in (("box.corner1", 2), ("box", 32), ("box.top", 16), ("box:0-3", 1)):
+        text = BOX + TOW + f'of = ["{name}"]\n' + DYNAMIC
+        if name == "box.corner1":
+            with pytest.raises(CaseError, match="2 of its 4 knots are free"):
+                parse_case(text)
+            continue
+        case = parse_case(text)
+        assert len(build_system(build_net(case), case).motion.knots) == count
+
+
+def test_labels_of_grouped_netting_are_the_real_ones():
+    grouped = BOX.replace("meshes = [4, 4, 3]", "meshes = [8, 8, 6]").replace("0.1 m", "0.05 m")
+    grouped = grouped.replace('kind = "box"', 'kind = "box"\ngroup = 2')
+    case = parse_case(grouped + TOW + 'of = ["box:0-6"]\n' + DYNAMIC)
+    system = build_system(build_net(case), case)
+    knot = int(system.motion.knots[0])
+    top = system.net.positions[system.net.fixed, 2].max()
+    assert system.net.positions[knot, 2] == top and len(system.motion.knots) == 1
+
+
+def test_what_a_collar_sets_free_is_told_when_it_is_built(tmp_path, capsys):
+    """The net is needed to know it; the exit code is that of any wrong case."""
+    file = tmp_path / "m.toml"
+    file.write_text(BOX + TOW + 'of = ["box.top"]\n' + COLLAR + DYNAMIC)
+    assert check_case(file, json=False) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert "[[motion]] 1" in told and "16 of its 16 knots are free" in told and "hold them" in told
