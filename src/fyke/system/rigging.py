@@ -78,4 +78,5 @@ def _places(net: Net, bodies: BodiesSpec) -> Indices:
     closed = panel.closed and axis == 0
     # As many as hang on the real edge, each at the nearest knot that there is.
     real = round((len(knots) - 1) * panel.group[axis]) + (not closed)
-    return evenly(knots, bodies.count or real, closed=closed, real=real)
+    length = float(np.linalg.norm(np.diff(net.positions[knots], axis=0), axis=1).sum())
+    return evenly(knots, min(bodies.many(real, length, closed=closed), real), closed=closed, real=real)
