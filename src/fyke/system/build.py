@@ -13,13 +13,13 @@ from ..netting.faces import faces_of
 from ..netting.net import Net
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
+from ..water.bed import Bed
 from ..water.current import Current, UniformCurrent
 from ..water.inertia import AddedMassLaw
 from ..water.laws import Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
-from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water

@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from ..netting.faces import Faces
 from ..netting.net import Net
+from ..water.bed import Bed
 from ..water.current import Current
 from ..water.waves import Waves
-from .bed import Bed
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
 from .motion import Motion
