@@ -7,7 +7,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ..system.system import State, System
-from .bars import add_tension, bar_geometry, elastic, largest_on_free
+from .bars import add_tension, bar_geometry, borne, elastic, largest_on_free
 from .compiled import OPTIONS
 from .drag import bar_water_force
 from .frame import Frame
@@ -35,15 +35,15 @@ def water_on_bars(rel, el, t, length, out):
 
 
 def bar_tensions(system: System, state: State, t: Array, length: Array) -> Array:
-    """Tension of every bar, (m,) N: elastic law and twine damping, zero where slack, never negative."""
+    """Tension of every bar, (m,) N: elastic law and twine damping, zero where slack, negative in tubes that push."""
     el = system.elements
     stretch = length - el.rest_length
     f, k = np.empty_like(length), np.empty_like(length)
     elastic(stretch, el, f, k)
     v = state.velocity
     rate = np.einsum("eq,eq->e", v[el.knot_b] - v[el.knot_a], t)
-    tension = np.where(stretch > 0.0, f + el.damping_time * k * rate, 0.0)
-    return np.maximum(tension, 0.0)
+    bears = el.two_way | (stretch > 0.0)
+    return borne(np.where(bears, f + el.damping_time * k * rate, 0.0), el)
 
 
 def share_with_bars(forces: Array, sides: NDArray[np.int64], out: Array) -> None:

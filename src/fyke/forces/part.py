@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from ..system.system import System
 from .bed import OnBed
+from .bending import Bending
 
 Array = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -45,7 +46,11 @@ class Part(Protocol):
 
 def parts_of(system: System) -> tuple[Part, ...]:
     """Return what acts on the knots of a system besides bars, knots and screens."""
-    return () if system.bed is None else (OnBed(system, system.bed),)
+    bending = Bending.of(system.net)
+    return (
+        *(() if system.bed is None else (OnBed(system, system.bed),)),
+        *(() if bending is None else (bending,)),
+    )
 
 
 def only_implicit(system: System) -> str:
@@ -56,4 +61,8 @@ def only_implicit(system: System) -> str:
         return "knots that are moved need"
     if system.bed is not None:
         return "a sea bed needs"
+    if system.elements.two_way.any():
+        return "tubes need"
+    if Bending.of(system.net) is not None:
+        return "ropes that resist bending need"
     return ""

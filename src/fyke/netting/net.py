@@ -143,6 +143,11 @@ class Net:
         """Twine diameter of every bar, (m,) m."""
         return np.array([t.diameter for t in self.twines])[self.twine_of_bar]
 
+    @property
+    def two_way(self) -> NDArray[np.bool_]:
+        """Whether a bar also pushes, as those of tubes do, (m,)."""
+        return np.array([t.compression for t in self.twines], dtype=bool)[self.twine_of_bar]
+
     def at_knots(self, what: Literal["mass", "volume", "drag_area"]) -> Array:
         """Return the mass (kg), volume (m3) or drag area (m2) of the bodies at every knot, (n,)."""
         out = np.zeros(self.knot_count)

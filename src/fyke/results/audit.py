@@ -29,7 +29,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import bar_geometry, elastic
+from ..forces.bars import bar_geometry, borne, elastic
 from ..forces.frame import Frame
 from ..forces.inertia import inertia_forces, mass_matrices
 from ..forces.surroundings import Surroundings
@@ -156,7 +156,8 @@ def forces_on_knots(system: System, frame: Frame) -> Array:
 
 def elastic_energy(el: Elements, length: Array) -> Array:
     """Elastic energy of every bar at a length (m,) m, (m,) J: the exact integral of its law, 0 where slack."""
-    strain = np.maximum(length / el.rest_length - 1.0, 0.0)
+    strain = length / el.rest_length - 1.0
+    strain = np.where(el.two_way, np.abs(strain), np.maximum(strain, 0.0))
     whole = _integral(el.law_rows[:-1], np.diff(el.law_rows[:, 0]))
     # Energy over l0 at the strain where a row begins; the first row of a law begins from nothing.
     start = np.zeros(len(el.law_rows))
@@ -193,8 +194,8 @@ def _viscous(el: Elements, length: Array, rate: Array) -> Array:
     """Part of the tension that the twine's damping makes, (m,) N, at a rate of elongation (m,) m/s."""
     f, slope = np.empty_like(length), np.empty_like(length)
     elastic(length - el.rest_length, el, f, slope)
-    damped = np.maximum(f + el.damping_time * slope * rate, 0.0)
-    return np.where(length > el.rest_length, damped - f, 0.0)
+    damped = borne(f + el.damping_time * slope * rate, el)
+    return np.where(el.two_way | (length > el.rest_length), damped - f, 0.0)
 
 
 def _elastic_length(el: Elements, frame: Frame) -> Array:
@@ -204,7 +205,9 @@ def _elastic_length(el: Elements, frame: Frame) -> Array:
     """
     t, length = _directions(frame, el)
     rate = np.einsum("eq,eq->e", frame.velocity[el.knot_b] - frame.velocity[el.knot_a], t)
-    tension = np.maximum(frame.tension - _viscous(el, length, rate), 0.0)
+    tension = borne(frame.tension - _viscous(el, length, rate), el)
+    # A tube that pushes stores what it would pulled as hard.
+    tension = np.abs(tension)
     row = el.law_first.astype(np.int64)
     last = el.law_end.astype(np.int64) - 1
     while np.any(further := (row < last) & (tension >= el.law_rows[np.minimum(row + 1, last), 1])):

@@ -52,7 +52,7 @@ def summary(
 
     support_reaction: force of the net on its supports, (3,). max_tension_bar: number of the bar with the
     largest tension, counted from 0 as in bars.csv, None when all are slack; max_tension_bar_label: the labels
-    of its two knots. slack_bars: how many bars have no tension. max_displacement: of a knot, against its
+    of its two knots. slack_bars: how many bars have no tension, tubes apart. max_displacement: of a knot, against its
     initial position. max_strain: of a bar, (length - rest length) / rest length, 0 where all are slack.
     residual: largest unbalanced force on a free knot. time: simulated time, None for statics.
     """
@@ -76,7 +76,7 @@ def summary(
         "weight_in_water": result.weight_in_water,
         "max_tension": float(np.max(last.tension, initial=0.0)),
         "max_tension_bar": bar,
-        "slack_bars": int(np.count_nonzero(last.tension <= 0.0)),
+        "slack_bars": int(np.count_nonzero((last.tension <= 0.0) & ~net.two_way)),
         "max_displacement": float(np.max(np.linalg.norm(last.position - net.positions, axis=1))),
         "version": __version__,
         "case_sha256": case_sha256 or case_hash(result.case_text),

@@ -27,7 +27,12 @@ FRAME_FIELDS: tuple[Field, ...] = (
     Field("time", ("time",), "s", "simulated time"),
     Field("position", ("time", "knot", "xyz"), "m", "position of every knot"),
     Field("velocity", ("time", "knot", "xyz"), "m s-1", "velocity of every knot"),
-    Field("tension", ("time", "bar"), "N", "tension of every bar, 0 where slack"),
+    Field(
+        "tension",
+        ("time", "bar"),
+        "N",
+        "tension of every bar, 0 where slack; axial force of tubes, below 0 where they push",
+    ),
     Field("bar_drag", ("time", "bar"), "N", "force of the water on a bar along the flow at it"),
     Field("bar_lift", ("time", "bar"), "N", "size of the force of the water on a bar across the flow"),
     Field(

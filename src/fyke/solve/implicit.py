@@ -20,8 +20,9 @@ from ..forces.evaluate import bar_tensions
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.surroundings import Surroundings
 from ..system.system import State, System
-from .equilibrium import typical_tension
+from .equilibrium import ROUNDING, typical_tension
 from .linear import SingularMatrixError
+from .smooth import begin_smooth
 from .step_newton import Ahead, StepNewton
 from .stepper import Count, Memory, Status
 
@@ -135,12 +136,14 @@ class ImplicitRun:
         self.surroundings.renew(self.x, self.time)
         self.a, f, load = self._beginning()
         prestress = float(np.maximum(f, 0.0).sum()) / max(len(f), 1)
-        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, TINY)
+        rounding = ROUNDING * float(
+            np.finfo(float).eps * el.stiffness.max(initial=0.0) * np.abs(self.x).max()
+        )
+        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, rounding, TINY)
         mu = (SMOOTHING * self.tension_scale) ** 2
         self.newton = StepNewton(self.surroundings, self.u, mu, self.tension_scale)
         self.linear_solver = self.newton.linear.name
-        self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * mu))
-        self.w = self.T - f
+        self.T, self.w = begin_smooth(f, mu, el)
         self.before = (self.time, self.x, self.v, self._tension())
         self.tolerance = method.atol + method.rtol * float(el.rest_length.min(initial=1.0))
         self.step = self._first_step()
@@ -200,7 +203,7 @@ class ImplicitRun:
 
     def _tension(self) -> Array:
         """Tension of every bar, (m,) N, without what the smoothing leaves on slack ones."""
-        return np.where(self.T > self.w, self.T, 0.0)
+        return np.where(self.el.two_way | (self.T > self.w), self.T, 0.0)
 
     def _step_once(self) -> Status:
         """One accepted step."""
@@ -252,7 +255,7 @@ class ImplicitRun:
         found, el = self.newton, self.el
         free = found.pattern.free
         drifting = np.ones(len(self.x), dtype=bool)
-        taut = (self.T > self.w) | (found.T > found.w)
+        taut = el.two_way | (self.T > self.w) | (found.T > found.w)
         drifting[el.knot_a[taut]] = drifting[el.knot_b[taut]] = False
         square = ((found.a - self.a)[free] ** 2).sum(axis=1)
         alone = square[drifting[free]]
@@ -274,7 +277,7 @@ class ImplicitRun:
         newton.begin(
             self._ahead(h),
             self.time + h,
-            self.T > self.w,
+            self.el.two_way | (self.T > self.w),
             np.zeros_like(self.x),
             self.T,
             self.w,

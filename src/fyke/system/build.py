@@ -122,6 +122,7 @@ def make_system(
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
+        two_way=net.two_way,
         **drag,
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)

@@ -59,6 +59,7 @@ def grouped(system: System, fine: Grid, coarse: Grid) -> System:
         free=el.free[knots],
         drag_slopes=el.drag_slopes,
         knot_slopes=el.knot_slopes,
+        two_way=el.two_way[bars],
     )
     displaced = Displaced(side * longer * system.displaced.bar[bars], side**2 * system.displaced.knot[knots])
     small = _net(net, fine, coarse, knots, bars, elements)
