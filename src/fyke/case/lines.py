@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import cos, pi, sin
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, PlainValidator, WithJsonSchema
@@ -149,3 +150,10 @@ class MooringsSpec(LaidSpec):
     def names(self) -> list[str]:
         """Return the names of its lines."""
         return [f"{self.name} {number}".strip() for number in range(1, self.count + 1)]
+
+    def anchors(self, middle: tuple[float, float], depth: float) -> list[tuple[float, float, float]]:
+        """Return where its anchors are (m), for a rim about a middle (x, y) in water of a depth (m)."""
+        angles = [self.bearing + 2.0 * pi * number / self.count for number in range(self.count)]
+        return [
+            (middle[0] + self.radius * cos(angle), middle[1] + self.radius * sin(angle), -depth) for angle in angles
+        ]

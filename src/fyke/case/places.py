@@ -13,7 +13,7 @@ _HEADER = re.compile(rf"\s*(\[\[?)\s*({_DOTTED})\s*\]\]?\s*(?:#.*)?")
 _ASSIGNMENT = re.compile(rf"\s*({_DOTTED})\s*=(.*)")
 _STRING_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*')
 _TRIPLE = re.compile("\"\"\"|'''")
-_NAMED = ("material", "twine", "netting", "gear")  # tables whose second step is a name or a number
+_NAMED = ("material", "twine", "chain", "netting", "gear")  # tables whose second step is a name or a number
 
 
 class Places:

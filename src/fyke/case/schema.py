@@ -11,10 +11,12 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
+from .bed import BedSpec
 from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
@@ -96,6 +98,8 @@ Gear = Annotated[
     | ConeSpec
     | FrustumSpec
     | RopeSpec
+    | LineSpec
+    | MooringsSpec
     | SinkersSpec
     | FloatsSpec,
     Field(discriminator="kind"),
@@ -141,17 +145,21 @@ class Case(Table):
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
     waves: WavesSpec | None = Field(default=None, description="the waves")
+    bed: BedSpec | None = Field(default=None, description="the sea bed, which bears what comes down to it")
     material: Annotated[dict[Name, MaterialSpec], BeforeValidator(_named_tables("material"))] = Field(
         default={}, description="materials of your own by name"
     )
-    twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
-        Field(description="twines by name", examples=[{"main": {}}])
+    twine: Annotated[dict[Name, TwineSpec], BeforeValidator(_named_tables("twine"))] = Field(
+        default={}, description="twines by name", examples=[{"main": {}}]
     )
-    netting: Annotated[
-        dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
-    ] = Field(description="nettings by name")
+    chain: Annotated[dict[Name, ChainSpec], BeforeValidator(_named_tables("chain"))] = Field(
+        default={}, description="chains by name, for lines"
+    )
+    netting: Annotated[dict[Name, NettingSpec], BeforeValidator(_named_tables("netting"))] = Field(
+        default={}, description="nettings by name"
+    )
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, lines, sinkers and floats, one [[gear]] each"
     )
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
@@ -204,8 +212,9 @@ class Case(Table):
 
     @property
     def twines(self) -> dict[str, Twine]:
-        """The twines of the netting, by name."""
-        return {name: spec.twine(name) for name, spec in self.twine.items()}
+        """The twines and chains of netting, ropes and lines, by name."""
+        specs: dict[str, TwineSpec | ChainSpec] = {**self.twine, **self.chain}
+        return {name: spec.twine(name) for name, spec in specs.items()}
 
     @property
     def folder(self) -> Path:
@@ -221,6 +230,11 @@ class Case(Table):
     def ropes(self) -> tuple[RopeSpec, ...]:
         """The gear that is ropes."""
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def lines(self) -> tuple[LaidSpec, ...]:
+        """The gear that is lines free of netting, and moorings."""
+        return tuple(part for part in self.gear if isinstance(part, LaidSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:
@@ -241,7 +255,7 @@ class Case(Table):
             outline = sheet.area(netting.mesh)
             solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
-        return solid / area
+        return solid / area if area else 0.0
 
     @property
     def positions_file(self) -> Path | None:

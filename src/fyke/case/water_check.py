@@ -71,7 +71,7 @@ def current_oddities(case: Case) -> Iterator[str]:
         )
     last = current.lowest
     heights = [piece.heights(case.netting[piece.netting]) for piece in case.pieces]
-    deepest = -min(height[0] for height in heights if height is not None)
+    deepest = -min((height[0] for height in heights if height is not None), default=0.0)
     if last is not None and deepest > last:
         yield (
             f"The current is given down to {last:g} m and the gear reaches {deepest:.4g} m; below its last depth "

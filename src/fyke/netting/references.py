@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import cast
+from typing import cast, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,13 +27,22 @@ def knot_at(net: Net, text: str) -> int | None:
     if text in net.labels:
         return net.labels.index(text)
     edge, row = ON_EDGE.fullmatch(text), IN_ROW.fullmatch(text)
-    knots = np.empty(0, dtype=np.int64)
     if edge:
-        knots = next((p.edge(cast(Side, edge[2])) for p in net.panels if p.name == edge[1]), knots)
+        knots, place = row_of(net, f"{edge[1]}.{edge[2]}"), int(edge[3])
     elif row:
-        knots = next((rope.knots for rope in net.ropes if rope.name == row[1]), knots)
-    place = int(edge[3]) if edge else int(row[2]) if row else 0
-    return int(knots[place]) if place < len(knots) else None
+        knots, place = next((rope.knots for rope in net.ropes if rope.name == row[1]), None), int(row[2])
+    else:
+        return None
+    return int(knots[place]) if knots is not None and place < len(knots) else None
+
+
+def row_of(net: Net, text: str) -> Indices | None:
+    """Return the knots in a row that a text names, "NAME.EDGE" of netting or the name of a rope, ring or line."""
+    name, _, side = text.rpartition(".")
+    for panel in net.panels:
+        if panel.name == name and side in get_args(Side):
+            return panel.edge(cast(Side, side))
+    return next((rope.knots for rope in net.ropes if rope.name == text), None)
 
 
 def around(knots: Indices, positions: NDArray[np.float64], bearing: float, count: int) -> Indices:

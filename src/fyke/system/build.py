@@ -34,10 +34,11 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its netting in the order of the file, then its ropes, floats and sinkers."""
+    """Make the net of a case: its netting in the order of the file, then its ropes, its lines, its floats and sinkers."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
-    return rigged(together([piece.lay(netting, twines[netting.twine]) for piece, netting in made]), case)
+    nets = [piece.lay(netting, twines[netting.twine]) for piece, netting in made]
+    return rigged(together(nets) if nets else None, case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -50,6 +51,7 @@ def build_system(net: Net, case: Case) -> System:
         coefficients=_coefficients(case),
         waves=_waves(case),
         surface=True,
+        bed=case.bed.ground(water.depth) if case.bed and water.depth else None,
     )
     return replace(system, case_text=case.text)
 

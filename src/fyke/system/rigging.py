@@ -1,31 +1,48 @@
-"""Ropes, floats and sinkers of a case on its netting."""
+"""Ropes and lines, floats and sinkers of a case on its netting."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..netting.lattice import Side
 from ..netting.net import Net, Panel
+from ..netting.references import knot_at, row_of
 from ..netting.rigging import evenly, with_bodies, with_rope
+from .lines import with_lines
 
 Indices = NDArray[np.int64]
 
 
-def rigged(net: Net, case: Case) -> Net:
-    """Return the netting of a case with its ropes, then its floats and sinkers, in the order of the file."""
-    twines = case.twines
-    for rope in case.ropes:
-        panel, side = _edge(net, rope.along)
-        net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
+def rigged(netting: Net | None, case: Case) -> Net:
+    """Return the netting of a case, if any, with its ropes, then its lines, then its floats and sinkers.
+
+    ValueError for a case without netting and lines, which a checked case has.
+    """
+    net = with_lines(_roped(netting, case), case)
+    if net is None:
+        raise ValueError("the case has neither netting nor lines")
     for bodies in case.bodies:
         sphere = bodies.sphere(case.water.density, case.water.gravity)
         kind = bodies.kind.removesuffix("s")
-        net = with_bodies(net, sphere.at(_places(net, bodies), name=bodies.name, kind=kind))
+        net = with_bodies(net, sphere.at(_places(net, bodies, case), name=bodies.name, kind=kind))
+    return net
+
+
+def _roped(net: Net | None, case: Case) -> Net | None:
+    """Return the netting of a case with its ropes."""
+    twines = case.twines
+    for rope in case.ropes:
+        if net is None:
+            break
+        panel, side = _edge(net, rope.along)
+        net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
     return net
 
 
@@ -35,14 +52,27 @@ def _edge(net: Net, along: str) -> tuple[Panel, Side]:
     return next(panel for panel in net.panels if panel.name == name), cast(Side, side)
 
 
-def _places(net: Net, bodies: BodiesSpec) -> Indices:
+def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:
     """Return the knots at which floats or sinkers are."""
     if bodies.along is None:
-        number = {label: knot for knot, label in enumerate(net.labels)}
-        return np.array([number[label] for label in bodies.at or ()], dtype=np.int64)
-    panel, side = _edge(net, bodies.along)
-    knots = panel.edge(side)
-    if np.all(knots == knots[0]):
-        return knots[:1]  # the tip of a cone
-    closed = panel.closed and side in ("top", "bottom")
-    return evenly(knots, bodies.count or len(knots) - closed, closed=closed)
+        return np.array(list(_labelled(net, bodies, case)), dtype=np.int64)
+    row = row_of(net, bodies.along)
+    if row is None:
+        raise ValueError(f"{bodies.called} hang on {bodies.along}, which is not there")
+    if np.all(row == row[0]):
+        return row[:1]  # the tip of a cone
+    closed = bool(row[0] == row[-1])
+    return evenly(row, bodies.count or len(row) - closed, closed=closed)
+
+
+def _labelled(net: Net, bodies: BodiesSpec, case: Case) -> Iterator[int]:
+    """Yield the knots of their labels, one in every line where moorings are named."""
+    moorings = {part.name: part.names() for part in case.lines if isinstance(part, MooringsSpec)}
+    number = {label: knot for knot, label in enumerate(net.labels)}
+    for label in bodies.at or ():
+        name, _, place = label.rpartition(":")
+        for one in [f"{line}:{place}" for line in moorings.get(name, ())] or [label]:
+            knot = number[one] if one in number else knot_at(net, one)
+            if knot is None:
+                raise ValueError(f"{bodies.called} hang at {one}, which is not there")
+            yield knot
