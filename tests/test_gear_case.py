@@ -484,10 +484,13 @@ def test_the_schema_knows_every_kind():
         "panel",
         "trapezoid",
         "triangle",
+        "box",
         "cylinder",
         "cone",
         "frustum",
         "rope",
+        "line",
+        "moorings",
         "sinkers",
         "floats",
     }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,8 +11,12 @@ import fyke
 from fyke.case import CaseError, parse_case
 from fyke.netting.cutting import Taper, cuts_of, lost, rate_of, repeated, spread
 from fyke.netting.faces import faces_of
+from fyke.netting.hexagon import Hexagon
 from fyke.netting.measures import measure_panel
 from fyke.netting.panel import panel
+from fyke.netting.shapes import box, cage, frustum
+from fyke.netting.sheet import Netting, sheet
+from fyke.results.volume import enclosed_volume
 
 BAR = 0.05
 TWINE = fyke.Twine("n", 1140.0, 2e-3, fyke.LinearLaw(1e9))
@@ -132,8 +138,8 @@ def test_cuts_that_cannot_be_are_told():
     with pytest.raises(ValueError, match="2 rows, where there are 4"):
         cut_panel(Taper("BB", "BBBB"), 5, 2)  # rows are half meshes
     with pytest.raises(ValueError, match="join its sides"):
-        fyke.netting.sheet.sheet(
-            fyke.netting.sheet.Netting(TWINE, "diamond", BAR),
+        sheet(
+            Netting(TWINE, "diamond", BAR),
             (5, 2),
             lambda steps, intervals: steps,
             shape="x",
@@ -161,6 +167,98 @@ def test_a_trapezoid_in_a_current_stays_symmetric(rate, narrow):
     net = cut_panel(Taper(cuts, cuts, narrow), 2 * lost(cuts, "diamond") + 4, 4, centre=(0.0, 0.0, -1.0))
     result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)), tolerance=1e-9)
     assert result.outcome.ok
+    assert mirrored(net, result) < 1e-9 * np.ptp(net.positions, axis=0).max()
+
+
+def made_of(mesh, **options):
+    return Netting(TWINE, mesh, BAR, **options)
+
+
+def open_box(mesh, *, segments=1, bottom=True):
+    step = 2.0 * BAR * np.sqrt(0.5) if mesh == "diamond" else BAR
+    size = (4 * step, 3 * step, 5 * step)
+    return box(
+        made_of(mesh, segments=segments), (4, 3, 5), size=size, top=(0.0, 0.0, -0.2), bottom=bottom
+    ), size
+
+
+@pytest.mark.parametrize("segments", [1, 3])
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+def test_a_box_closes_by_construction(mesh, segments):
+    """No knot and no bar twice, four bars at every knot below the rim but the lower corners, one open rim (Euler)."""
+    net, _ = open_box(mesh, segments=segments)
+    assert len(np.unique(net.positions.round(9), axis=0)) == net.knot_count
+    assert len({tuple(sorted(bar)) for bar in net.bars.tolist()}) == net.bar_count
+    tied = np.unique(np.concatenate([panel.knots for panel in net.panels]))
+    ends = np.bincount(net.bars.ravel())
+    below = tied[net.positions[tied, 2] < -0.2 - 1e-9]
+    lower = [net.panels[0].edge(f"corner{k}")[0] for k in (1, 2, 3, 4)]
+    assert set(ends[np.setdiff1d(below, lower)]) == {4}
+    assert set(ends[lower]) == {3}
+    assert set(np.delete(ends, tied)) <= {2}
+    faces = faces_of(net)
+    # A surface with one rim: knots - edges + faces = 1. Half meshes have a side along the rim, which is no bar.
+    sides = np.sort(
+        np.stack([faces.corners, np.roll(faces.corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1
+    )
+    sides = np.unique(sides[sides[:, 0] != sides[:, 1]], axis=0)
+    assert len(np.unique(faces.corners)) - len(sides) + faces.count == 1
+    for panel_ in net.panels:
+        knots = panel_.knots[panel_.lattice.bars]
+        chain = np.column_stack([net.bars[panel_.bars[:, 0], 0], net.bars[panel_.bars[:, -1], 1]])
+        back = np.column_stack([net.bars[panel_.bars[:, 0], 1], net.bars[panel_.bars[:, -1], 0]])
+        same = (chain == knots).all(axis=1) | (back == knots).all(axis=1)
+        assert same.all()
+
+
+def test_walls_floor_and_twine_of_a_box_by_formulas():
+    """A box of squares: bars of four walls and a floor counted once; volume, and areas that close."""
+    net, (x, y, z) = open_box("square")
+    nx, ny, nz = 4, 3, 5
+    around = 2 * (nx + ny)
+    bars = around * (nz + 1) + around * nz + (nx - 1) * ny + (ny - 1) * nx
+    assert net.bar_count == bars
+    assert net.rest_length.sum() == pytest.approx(bars * BAR, rel=1e-12)
+    faces = faces_of(net)
+    assert faces.area.sum() == pytest.approx(2 * (x + y) * z + x * y, rel=1e-12)
+    assert faces.vector_area(net.positions).sum(axis=0) == pytest.approx([0.0, 0.0, -x * y], abs=1e-14)
+    assert enclosed_volume(net, net.positions) == pytest.approx(x * y * z, rel=1e-12)
+
+
+def test_corners_of_a_box_go_round_from_plus_x_minus_y():
+    net, (x, y, z) = open_box("diamond")
+    for k, (right, far) in enumerate([(1, -1), (1, 1), (-1, 1), (-1, -1)], 1):
+        knots = net.panels[0].edge(f"corner{k}")
+        assert net.positions[knots, :2] == pytest.approx(np.tile([right * x / 2, far * y / 2], (6, 1)))
+        assert net.positions[knots[[0, -1]], 2] == pytest.approx([-0.2 - z, -0.2])
+    with pytest.raises(ValueError, match="no corner1"):
+        net.panels[1].edge("corner1")
+
+
+def test_a_box_of_hexagons_has_no_bottom():
+    net, _ = open_box(Hexagon(1.0), bottom=False)
+    assert set(np.bincount(net.bars.ravel())[~net.fixed]) <= {2, 3}
+    with pytest.raises(ValueError, match="does not match its walls"):
+        open_box(Hexagon(1.0))
+
+
+def symmetric():
+    """Every gear that has a plane of symmetry along the current, with the largest current that keeps it one shape."""
+    floor = {"bottom": (3, 0.05)}
+    yield "box", open_box("diamond")[0]
+    yield "box of squares", open_box("square")[0]
+    for name, low in (("cylinder", 0.6), ("frustum", 0.4), ("cone", 0.0)):
+        meshes, options = (12, 4), {"diameters": (low, 0.6), "height": 0.3, "centre": (0.0, 0.0, -0.2)}
+        yield name, frustum(made_of("diamond"), meshes, **options)
+    yield "cage", cage(made_of("diamond"), (12, 4), diameter=0.6, depth=0.3, top=(0.0, 0.0, -0.2), **floor)
+
+
+@pytest.mark.parametrize(("name", "net"), [pytest.param(*one, id=one[0]) for one in symmetric()])
+def test_symmetric_gear_stays_symmetric(name, net):
+    """With enough weight at the knots to keep it open, every shape is its own mirror image."""
+    heavy = replace(net, load=np.tile([0.0, 0.0, -0.05], (net.knot_count, 1)))
+    result = fyke.solve_static(fyke.make_system(heavy, current=(0.2, 0.0, 0.0)), tolerance=1e-10)
+    assert result.outcome.ok, name
     assert mirrored(net, result) < 1e-9 * np.ptp(net.positions, axis=0).max()
 
 
@@ -287,6 +385,81 @@ SPOILT = {
     "held by nothing": (
         shape("triangle", "meshes = [20, 10]", "hanging_ratio = 0.6", 'fixed = "none"'),
         ("[[gear]] 1 fixed", "none", "corners", "edges"),
+    ),
+}
+
+
+def box_case(*lines, netting="main"):
+    keys = ['kind = "box"', f'netting = "{netting}"', "top = [0.0, 0.0, -0.2]", *lines]
+    return "\n".join([HEAD, "[[gear]]", 'name = "a"', *keys, ""])
+
+
+def test_a_box_of_a_case_is_that_made_by_hand():
+    text = box_case("meshes = [4, 3, 5]", "hanging_ratio = 0.6")
+    net = fyke.build_net(parse_case(text))
+    side = 2.0 * BAR * 0.6
+    by_hand = box(
+        made_of("diamond"),
+        (4, 3, 5),
+        size=(4 * side, 3 * side, 5 * 2.0 * BAR * 0.8),
+        top=(0.0, 0.0, -0.2),
+        name="a",
+    )
+    assert net.labels == by_hand.labels
+    assert net.positions == pytest.approx(by_hand.positions, abs=1e-15)
+    assert np.array_equal(net.bars, by_hand.bars)
+
+
+def test_ropes_and_sinkers_find_edges_and_knots_of_a_box(tmp_path):
+    rigging = """[[gear]]
+kind = "rope"
+name = "up"
+twine = "main"
+along = "a.corner3"
+[[gear]]
+kind = "sinkers"
+name = "leads"
+at = ["a:0-0", "a bottom:1-1"]
+weight = "0.1 N"
+density = 7850
+"""
+    case = parse_case(box_case("meshes = [4, 3, 5]", "hanging_ratio = 0.7") + rigging)
+    net = fyke.build_net(case)
+    assert np.array_equal(net.ropes[0].knots, net.panels[0].edge("corner3"))
+    assert [net.labels[k] for k in net.bodies[0].knots] == ["a:0-0", "a bottom:1-1"]
+    result = fyke.solve_static(fyke.build_system(net, case))
+    fyke.save(result, tmp_path / "a.nc")
+    assert fyke.load(tmp_path / "a.nc").net.panels[0].folds == net.panels[0].folds
+    for label in ("a bottom:0-0", "a bottom:8-2", "a:28-0"):
+        with pytest.raises(CaseError, match="a knot of"):
+            parse_case(case.text.replace("a bottom:1-1", label))
+
+
+SPOILT |= {
+    "box without a size": (
+        box_case("meshes = [4, 3, 5]"),
+        ("[[gear]] 1 size", "neither", "one of size", "[along x, along y, deep]"),
+    ),
+    "box too large": (
+        box_case("meshes = [4, 3, 5]", "size = [0.5, 0.3, 0.4]"),
+        ("[[gear]] 1 size", "walls of 1.6 m x 0.4 m", "20 %", "number of meshes"),
+    ),
+    "bottom too large": (
+        box_case("meshes = [4, 3, 5]", "size = [0.36, 0.27, 0.1]"),
+        ("[[gear]] 1 size", "a bottom of 0.36 m x 0.27 m", "20 %", "number of meshes"),
+    ),
+    "bottom of hexagons": (
+        box_case("meshes = [4, 3, 5]", "size = [0.2, 0.15, 0.3]", netting="six"),
+        ("[[gear]] 1 bottom", "hexagonal netting", "knot by knot", "bottom = false"),
+    ),
+    "two counts for a box": (
+        box_case("meshes = [4, 3]", "size = [0.2, 0.15, 0.3]"),
+        ("[[gear]] 1 meshes", "", "", ""),
+    ),
+    "left side of a box": (
+        box_case("meshes = [4, 3, 5]", "hanging_ratio = 0.7")
+        + '[[gear]]\nkind = "rope"\nname = "r"\ntwine = "main"\nalong = "a.left"\n',
+        ("[[gear]] 2 along", "a.left", "corner4; it closes round", "did you mean"),
     ),
 }
 

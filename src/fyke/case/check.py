@@ -15,8 +15,10 @@ from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
-from .gear_check import gear_findings, reference
+from .gear_check import gear_findings, has_bottom, reference
 from .keys import nearest
+from .line_check import line_findings
+from .lines import ChainSpec, LaidSpec
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
@@ -25,7 +27,7 @@ from .water_check import current_file_problems, current_findings, sea_bed_findin
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"rope", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"rope", "line", "moorings", "sinkers", "floats"}  # kinds of gear that are not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -41,6 +43,7 @@ class Parts:
     materials: dict[str, Material]
     twines: dict[str, TwineSpec]
     nettings: dict[str, NettingSpec]
+    chains: dict[str, ChainSpec]
     gear: dict[int, Part]
     folder: FilePath
 
@@ -58,6 +61,7 @@ class Parts:
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
             _named(NettingSpec, raw, "netting"),
+            _named(ChainSpec, raw, "chain"),
             {i: part for i, part in parts.items() if part is not None},
             folder,
         )
@@ -79,6 +83,11 @@ class Parts:
         return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
 
     @property
+    def lines(self) -> dict[int, LaidSpec]:
+        """Gear that is lines and moorings, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, LaidSpec)}
+
+    @property
     def bodies(self) -> dict[int, BodiesSpec]:
         """Gear that is floats and sinkers, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, BodiesSpec)}
@@ -90,7 +99,7 @@ class Parts:
         for index, keys in self.gear_tables():
             if not RIGGING & {keys.get("kind") if isinstance(keys.get("kind"), str) else ""}:
                 name = self.name_of(index)
-                names += [name, f"{name} bottom".strip()] if "bottom" in keys else [name]
+                names += [name, f"{name} bottom".strip()] if has_bottom(keys) else [name]
         return names
 
     def name_of(self, index: int, sheet: Sheet | None = None) -> str:
@@ -140,7 +149,10 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
-    yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
+    water = _valid(Water, parts.raw.get("water", {}))
+    yield from gear_findings(parts, water)
+    yield from line_findings(parts, water)
+    yield from _bed(parts, water)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)
@@ -302,6 +314,10 @@ def _stepper(parts: Parts) -> Iterator[Finding]:
         found = f'"{solve.stepper}" with screens, which explicit steps do not know'
         allowed = '"auto", "implicit" or "newmark" with [drag] kind = "screens"'
         yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
+    if solve.stepper in _EXPLICIT and "bed" in parts.raw:
+        found = f'"{solve.stepper}" with a sea bed, which explicit steps do not know'
+        allowed = '"auto", "implicit" or "newmark" with [bed]'
+        yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
     if solve.max_step is not None and solve.max_step > solve.duration:
         allowed = f"at most the duration of {solve.duration:g} s"
         yield (
@@ -310,6 +326,12 @@ def _stepper(parts: Parts) -> Iterator[Finding]:
             allowed,
             "leave max_step out, or check its unit",
         )
+
+
+def _bed(parts: Parts, water: Water | None) -> Iterator[Finding]:
+    if "bed" in parts.raw and water is not None and water.depth is None:
+        allowed = "a depth in [water] beside [bed]: the bed lies that far below still water"
+        yield ("water", "depth"), "nothing", allowed, "add depth = 20.0 to [water]"
 
 
 def _compare(parts: Parts) -> Iterator[Finding]:

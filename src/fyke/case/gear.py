@@ -5,14 +5,14 @@ from __future__ import annotations
 from abc import abstractmethod
 from dataclasses import dataclass
 from math import pi, sin, sqrt
-from typing import Annotated, Literal
+from typing import Annotated, Literal, cast
 
 import numpy as np
 from pydantic import Field, PrivateAttr
 
 from ..netting.cutting import Taper
 from ..netting.hexagon import Hexagon
-from ..netting.lattice import Edge, Lattice, Mesh, Side, flat_strain, hung_size, lattice, taut_ratios
+from ..netting.lattice import Corner, Edge, Lattice, Mesh, Side, flat_strain, hung_size, lattice, taut_ratios
 from ..netting.net import Net
 from ..netting.panel import panel, panel_axes
 from ..netting.twine import Twine
@@ -62,20 +62,30 @@ class Sheet:
     """One sheet of netting of a piece of gear, as it is built.
 
     name: of the panel in the net; meshes: along width and height; size: m, width and height laid flat, the mean ones;
-    rims: diameters (m) of the lower and the upper rim of one that closes round, None for a flat one; sewn: its upper
-    rim has the knots of another sheet; taper: how its sides are cut, meshes and size being those of the wide end.
+    rims: diameters (m) of the lower and the upper rim of one that closes round an axis; sides: meshes and length (m)
+    along x and along y of one that goes round a box; both None for a flat one; sewn: its upper rim, or the whole edge
+    of a flat one, has the knots of another sheet; taper: how its sides are cut, meshes and size being those of the
+    wide end.
     """
 
     name: str
     meshes: tuple[int, int]
     size: tuple[float, float]
     rims: tuple[float, float] | None = None
+    sides: tuple[tuple[int, float], tuple[int, float]] | None = None
     sewn: bool = False
     taper: Taper | None = None
 
     @property
-    def edges(self) -> tuple[Side, ...]:
-        """Its edges; netting that closes round has no left and right."""
+    def closed(self) -> bool:
+        """Whether it closes round."""
+        return self.rims is not None or self.sides is not None
+
+    @property
+    def edges(self) -> tuple[Side | Corner, ...]:
+        """Its edges; netting that closes round has no left and right, that of a box has corners."""
+        if self.sides is not None:
+            return ("top", "bottom", "corner1", "corner2", "corner3", "corner4")
         return ("top", "bottom") if self.rims else ("top", "bottom", "left", "right")
 
     @property
@@ -96,6 +106,9 @@ class Sheet:
 
     def strain(self, netting: NettingSpec) -> float:
         """Strain of the longest bars as built, from knot to knot where it is widest; negative where all are slack."""
+        if self.sides is not None:
+            sides = (((count, self.meshes[1]), (length, self.size[1])) for count, length in self.sides)
+            return max(max(flat_strain(netting.mesh, n, netting.bar_length, size)) for n, size in sides)
         width = self.size[0]
         if self.rims is not None:
             columns = self.last(netting.mesh)[0] + 1
@@ -103,11 +116,18 @@ class Sheet:
             width = chord * max(self.rims)  # columns of hexagons lie unevenly: the circle is the most
         return max(flat_strain(netting.mesh, self.meshes, netting.bar_length, (width, self.size[1])))
 
-    def edge(self, side: Side, mesh: Mesh) -> tuple[int, float]:
+    def edge(self, side: Side | Corner, mesh: Mesh) -> tuple[int, float]:
         """Return how many knots an edge has, and how long (m) it is from knot to knot; of hexagons at most."""
+        if self.sides is not None:
+            if side in ("top", "bottom"):
+                return self.meshes[0], self.size[0]
+            column = self.lattice(mesh).knots[:, 0] == 0
+            return int(np.count_nonzero(column)), self.size[1]
         if self.taper is not None:
             grid = self.lattice(mesh)
-            places = grid.knots[grid.edge(side)] * (np.array(self.size) / np.array(grid.intervals))
+            places = grid.knots[grid.edge(cast(Side, side))] * (
+                np.array(self.size) / np.array(grid.intervals)
+            )
             return len(places), float(np.linalg.norm(np.diff(places, axis=0), axis=1).sum())
         if self.rims is None:
             along = 0 if side in ("top", "bottom") else 1
@@ -125,13 +145,15 @@ class Sheet:
             if isinstance(mesh, Hexagon)
             else (steps * self.meshes[0], steps * self.meshes[1])
         )
-        return i - (self.rims is not None), j - self.sewn
+        return i - self.closed, j - self.sewn
 
     def has(self, i: int, j: int, mesh: Mesh) -> bool:
         """Whether it has a knot i-j of its own."""
         if self.taper is not None:
             return bool((self.lattice(mesh).knots == (i, j)).all(axis=1).any())
         last = self.last(mesh)
+        if self.sewn and not self.closed and not (0 < i <= last[0] - 1 and 0 < j <= last[1]):
+            return False
         knot = mesh.has(i, j) if isinstance(mesh, Hexagon) else mesh == "square" or (i + j) % 2 == 0
         return i <= last[0] and j <= last[1] and knot and not (self.tip and j == 0 and i > 0)
 
@@ -173,9 +195,6 @@ class Piece(Part):
     """Gear that is netting."""
 
     netting: Name = Field(description="name of a [netting.NAME]", examples=["main"])
-    meshes: tuple[MeshCount, MeshCount] = Field(
-        description="meshes along the width and along the height", examples=[[8, 8]]
-    )
 
     def settle(self, netting: NettingSpec) -> None:
         """Fill in what follows from the netting, once, when the whole case is known."""
@@ -201,6 +220,9 @@ class Piece(Part):
 class FlatSpec(Piece):
     """A flat panel of netting on a frame."""
 
+    meshes: tuple[MeshCount, MeshCount] = Field(
+        description="meshes along the width and along the height", examples=[[8, 8]]
+    )
     given_size: tuple[Length, Length] | None = Field(
         default=None,
         alias="size",

@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from math import inf, pi
+from math import pi
 from typing import TYPE_CHECKING, Any, cast
 
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
+from ..netting.references import IN_ROW
+from .bodies_check import body_findings
+from .box import BoxSpec
 from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
-from .rigging import BodiesSpec, RopeSpec, SinkersSpec
+from .rigging import BodiesSpec, RopeSpec
+from .rows import in_row_findings, rows_of
 from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
 from .tapered_check import cutting
@@ -23,9 +27,7 @@ if TYPE_CHECKING:
     from .schema import Water
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
-_LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
 _FLAT = ("panel", "trapezoid", "triangle")
-_KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
 
 
 def reference(path: Path, keys: dict[str, Any], table: str, there: list[str]) -> Iterator[Finding]:
@@ -45,9 +47,10 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     for index, keys in parts.gear_tables():
         for table in ("netting", "twine"):
             there = [name for name, _ in parts.items(table)]
+            there += [name for name, _ in parts.items("chain") if table == "twine"]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
-        if keys.get("kind") in (*_FLAT, None):
+        if keys.get("kind") in (*_FLAT, "box", None):
             yield from _one_size(("gear", index), keys)
     for index, piece in parts.pieces.items():
         path = ("gear", index)
@@ -56,14 +59,16 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             yield from wrong_cuts
             if wrong_cuts:
                 continue
+        if isinstance(piece, BoxSpec):
+            yield from _hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
         if isinstance(piece, RoundSpec):
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
-    sheets = _sheets(parts)
+    sheets = sheets_of(parts)
     for index, rope in parts.ropes.items():
         yield from _rope(("gear", index), rope, parts, sheets)
     for index, bodies in parts.bodies.items():
-        yield from _bodies(("gear", index), bodies, water)
+        yield from body_findings(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
 
 
@@ -75,7 +80,7 @@ def _names(parts: Parts) -> Iterator[Finding]:
         if not isinstance(name, str):
             continue
         taken = {name: f"[[gear]] {index + 1}"}
-        if "bottom" in keys:
+        if has_bottom(keys):
             taken[f"{name} bottom"] = f"the bottom of [[gear]] {index + 1}"
         for one, owner in taken.items():
             if one in seen:
@@ -87,6 +92,11 @@ def _names(parts: Parts) -> Iterator[Finding]:
                     "choose another name",
                 )
             seen.setdefault(one, owner)
+
+
+def has_bottom(keys: dict[str, Any]) -> bool:
+    """Whether a part of these keys has netting below it, valid or not."""
+    return keys.get("bottom", keys.get("kind") == "box") is not False
 
 
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
@@ -102,9 +112,8 @@ def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
     asked = {"size", "hanging_ratio"} & keys.keys()
     if len(asked) != 1:
         found = "both size and hanging_ratio" if asked else "neither size nor hanging_ratio"
-        cure = (
-            "leave out one of the two" if asked else "add size = [width, height] in m, or hanging_ratio = 0.6"
-        )
+        sides = "[along x, along y, deep]" if keys.get("kind") == "box" else "[width, height]"
+        cure = "leave out one of the two" if asked else f"add size = {sides} in m, or hanging_ratio = 0.6"
         yield (*path, "size"), found, "one of size and hanging_ratio", cure
 
 
@@ -117,10 +126,7 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if isinstance(piece, CylinderSpec | ConeSpec):
         yield from _one_round_size(path, piece)
         yield from _closing_ratio(path, piece, netting)
-    if netting is not None and isinstance(netting.mesh, Hexagon) and netting.mesh.turned:
-        found = f"hexagons with their long bars round {piece.called}"
-        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
-        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    yield from _hexagons_round(path, piece, netting)
     if netting is None or netting.mesh == "diamond":
         return
     allowed = "diamond netting, which can be gathered in one knot"
@@ -131,6 +137,22 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if piece.floor is not None:
         cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
         yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
+
+
+def _hexagons_round(
+    path: Path, piece: Piece, netting: NettingSpec | None, *, bottom: bool = False
+) -> Iterator[Finding]:
+    """What hexagons must have to close round, and that no bottom of theirs matches the walls of a box."""
+    if netting is None or not isinstance(netting.mesh, Hexagon):
+        return
+    if netting.mesh.turned:
+        found = f"hexagons with their long bars round {piece.called}"
+        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
+        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    if bottom:
+        allowed = "diamond or square netting, whose bottom matches its walls knot by knot"
+        cure = f'write bottom = false, or mesh = "diamond" in [netting.{piece.netting}]'
+        yield (*path, "bottom"), f"a bottom of hexagonal netting in {piece.called}", allowed, cure
 
 
 def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
@@ -181,7 +203,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
     if isinstance(ratio, tuple) and max(ratio) > 1.0 and isinstance(piece, RoundSpec):
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        if isinstance(piece, FlatSpec):
+        if isinstance(piece, FlatSpec | BoxSpec):
             yield from _pair(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
@@ -191,9 +213,10 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
 
 def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec) -> Finding:
     strain = f"which strains the bars by {sheet.strain(netting) * 100:.3g} % before anything acts"
-    if isinstance(piece, FlatSpec):
+    if isinstance(piece, FlatSpec | BoxSpec):
         key = "size" if piece.given_size else "hanging_ratio"
-        found = f"{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
+        of = "" if isinstance(piece, FlatSpec) else "a bottom of " if sheet.sewn else "walls of "
+        found = f"{of}{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
         allowed = f"a frame that the net can span: at most {LARGEST_STRAIN * 100:g} % strain"
         return (*path, key), found, allowed, "check the units of size and bar_length and the number of meshes"
     low, high = sheet.rims or (0.0, 0.0)
@@ -205,7 +228,7 @@ def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec)
     return (*path, key), found, allowed, cure
 
 
-def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
+def sheets_of(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     """The sheets of netting of all pieces that are good by themselves, by name."""
     out = {}
     for index, piece in parts.pieces.items():
@@ -217,7 +240,7 @@ def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     return cast(dict[str, tuple[Sheet, NettingSpec]], out)
 
 
-def _along(
+def along_edge(
     path: Path, what: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding | tuple[int, float]]:
     """Either what is wrong with an edge that is named, or how many knots it has and its length (m)."""
@@ -238,7 +261,7 @@ def _along(
     sheet, netting = sheets[name]
     if side not in sheet.edges:
         allowed = f"an edge of '{name}': {' or '.join(sheet.edges)}"
-        if sheet.rims:
+        if sheet.closed:
             allowed += "; it closes round and has no other"
         near = nearest(side, sheet.edges) or sheet.edges[1]
         yield key, f"{written(along)} of {what}", allowed, f'did you mean "{name}.{near}"?'
@@ -250,7 +273,7 @@ def _rope(
     path: Path, rope: RopeSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
     called = f"rope '{parts.name_of(cast(int, path[1]))}'"
-    for one in _along(path, called, rope.along, parts, sheets):
+    for one in along_edge(path, called, rope.along, parts, sheets):
         if len(one) == 4:
             yield one
             continue
@@ -287,7 +310,9 @@ def _hung(
         yield (*path, "along"), found, "an edge (along) or labels of knots (at)", cure
         return
     if bodies.along is not None:
-        for one in _along(path, called, bodies.along, parts, sheets):
+        last = rows_of(parts, sheets).get(bodies.along)
+        row = along_edge(path, called, bodies.along, parts, sheets) if last is None else ((last + 1, 0.0),)
+        for one in row:
             if len(one) == 4:
                 yield one
             elif bodies.count is not None and bodies.count > one[0]:
@@ -301,15 +326,19 @@ def _hung(
         cure = "leave count out: there is one at every label"
         yield (*path, "count"), f"{bodies.count} beside at in {called}", "count with along only", cure
     for place, label in enumerate(bodies.at):
-        yield from _knot((*path, "at", place), called, label, parts, sheets)
+        yield from knot_findings((*path, "at", place), called, label, parts, sheets)
         if label in bodies.at[:place]:
             found = f"{written(label)} of {called}, twice"
             yield (*path, "at", place), found, "every knot once", "leave it out, or make a heavier one"
 
 
-def _knot(
+def knot_findings(
     path: Path, what: str, label: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
+    """What is wrong with the label of a knot; what: who hangs there."""
+    if IN_ROW.fullmatch(label):
+        yield from in_row_findings(path, what, label, rows_of(parts, sheets))
+        return
     match = _LABEL.fullmatch(label)
     name = (match[1] or "") if match else label.partition(":")[0]
     found = f"{written(label)} of {what}"
@@ -329,54 +358,3 @@ def _knot(
             allowed += "; of hexagons every other one" * (netting.mesh_name == "hexagonal")
             allowed += "; its tip is 0-0" * sheet.tip
             yield path, found, allowed, "choose a knot that is there; knots.csv of a run lists them"
-
-
-def _bodies(path: Path, bodies: BodiesSpec, water: Water | None) -> Iterator[Finding]:
-    """What floats and sinkers are, and whether they float and sink."""
-    force, example, density = _KIND_OF_FORCE[bodies.kind]
-    values = {
-        force: bodies.force,
-        "density": bodies.density,
-        "mass": bodies.mass,
-        "diameter": bodies.diameter,
-    }
-    given = [key for key, value in values.items() if value is not None]
-    if given not in ([force, "density"], ["mass", "diameter"]):
-        found = " and ".join(given) if given else "nothing of these"
-        allowed = f"{force} (N in water) and density of each one, or mass and diameter"
-        cure = f"write {force} = {example} and density = {density}, or mass and diameter"
-        yield (*path, given[0] if given else force), f"{found} in {bodies.kind}", allowed, cure
-        return
-    if water is None:
-        return
-    sinks = isinstance(bodies, SinkersSpec)
-    if bodies.density is not None:
-        key, own = "density", bodies.density
-    else:
-        volume = pi / 6.0 * (bodies.diameter or 0.0) ** 3
-        key, own = "mass", (bodies.mass or 0.0) / volume if volume > 0.0 else inf
-    if (own <= water.density) if sinks else (own >= water.density):
-        found = f"{own:g} kg/m3, which {'does not sink' if sinks else 'does not float'}"
-        allowed = (
-            f"{'above' if sinks else 'below'} the {water.density:g} kg/m3 of the water for {bodies.kind}"
-        )
-        other = "floats" if sinks else "sinkers"
-        cure = f'check the units of {", ".join(given)}, or write kind = "{other}"'
-        yield (*path, key), found, allowed, cure
-    elif bodies.density is not None:
-        yield from _body_of_force((*path, force), bodies, water)
-
-
-def _body_of_force(path: Path, bodies: BodiesSpec, water: Water) -> Iterator[Finding]:
-    if water.gravity == 0.0:
-        found = f"{bodies.force:g} N without gravity"
-        yield path, found, "[water] gravity above 0 for a force in water", "give mass and diameter instead"
-        return
-    try:
-        diameter = bodies.sphere(water.density, water.gravity).diameter
-    except (OverflowError, ZeroDivisionError):
-        diameter = inf
-    if not diameter <= _LARGEST_BODY:
-        found = f"{bodies.force:g} N at {bodies.density:g} kg/m3, a sphere of {diameter:.3g} m"
-        allowed = f"a body of at most {_LARGEST_BODY:g} m"
-        yield path, found, allowed, "check its unit; the density may be too near that of the water"

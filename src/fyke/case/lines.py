@@ -147,13 +147,14 @@ class MooringsSpec(LaidSpec):
         default=0.0, description="of the first anchor, from +x turning to +y", examples=["22.5 deg"]
     )
 
-    def names(self) -> list[str]:
-        """Return the names of its lines."""
-        return [f"{self.name} {number}".strip() for number in range(1, self.count + 1)]
+    def names(self, name: str) -> list[str]:
+        """Return the names of its lines where it has this name itself."""
+        return [f"{name} {number}".strip() for number in range(1, self.count + 1)]
 
     def anchors(self, middle: tuple[float, float], depth: float) -> list[tuple[float, float, float]]:
         """Return where its anchors are (m), for a rim about a middle (x, y) in water of a depth (m)."""
         angles = [self.bearing + 2.0 * pi * number / self.count for number in range(self.count)]
         return [
-            (middle[0] + self.radius * cos(angle), middle[1] + self.radius * sin(angle), -depth) for angle in angles
+            (middle[0] + self.radius * cos(angle), middle[1] + self.radius * sin(angle), -depth)
+            for angle in angles
         ]

@@ -57,11 +57,13 @@ def _thin_knots(case: Case) -> Iterator[str]:
 
 def _frames(case: Case) -> Iterator[str]:
     for netting, sheet in case.sheets:
-        shape = "netting" if sheet.rims else "panel"
+        shape = "netting" if sheet.closed else "panel"
         what = f"{shape} '{sheet.name}'" if sheet.name else f"the {shape}"
         on, sides = ("its frame", ("width", "height"))
         if sheet.rims:
             on, sides = ("its rims", ("mean way round", "height along the netting"))
+        if sheet.sides:
+            on, sides = ("the box", ("way round", "depth"))
         strain = sheet.strain(netting)
         # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
         if strain > 1e-9:
@@ -83,7 +85,8 @@ def _unused(case: Case) -> Iterator[str]:
     for name in sorted(case.netting.keys() - worn):
         yield f"Netting '{name}' is not used by any gear."
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
-    spun |= {piece.twine for line in case.lines for piece in line.asked} | {line.twine for line in case.lines}
+    spun |= {piece.twine for line in case.lines for piece in line.asked}
+    spun |= {line.twine for line in case.lines if line.twine is not None}
     also = " or rope" * bool(case.ropes) + " or line" * bool(case.lines)
     for what in ("twine", "chain"):
         for name in sorted(getattr(case, what).keys() - spun):

@@ -12,6 +12,7 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .bed import BedSpec
+from .box import BoxSpec
 from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
@@ -97,6 +98,7 @@ Gear = Annotated[
     | CylinderSpec
     | ConeSpec
     | FrustumSpec
+    | BoxSpec
     | RopeSpec
     | LineSpec
     | MooringsSpec

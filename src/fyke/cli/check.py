@@ -223,6 +223,8 @@ def _meshes(panel: dict[str, Any]) -> str:
 
 def _outline(panel: dict[str, Any], width: float, height: float) -> list[tuple[str, str]]:
     area = quantity(panel["outline_area"], "m2")
+    if panel["shape"] == "box":
+        return [("walls", f"{width:.4g} m round, {height:.4g} m deep, {area}")]
     if panel["rims"] is None:
         return [("frame", f"{width:.4g} m x {height:.4g} m, {area}")]
     low, high = panel["rims"]

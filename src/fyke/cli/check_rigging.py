@@ -21,7 +21,9 @@ def ropes_of(case: Case, system: System) -> list[dict[str, Any]]:
     """
     return [
         _rope(system, rope.knots, rope.bars) | {"name": spec.name, "twine": spec.twine, "along": spec.along}
-        for spec, rope in zip(case.ropes, system.net.ropes, strict=True)
+        for spec, rope in zip(
+            case.ropes, (one for one in system.net.ropes if one.kind == "rope"), strict=True
+        )
     ]
 
 

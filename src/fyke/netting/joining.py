@@ -54,6 +54,50 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
     )
 
 
+def with_shared_bars(net: Net) -> Net:
+    """Return the net in which panels that share two neighbouring knots share the bar between them as well.
+
+    The bar is that of the first such panel, all its segments; the others and the places within them go.
+    """
+    chains = [panel.bars for panel in net.panels]
+    ends = np.sort(np.concatenate([panel.knots[panel.lattice.bars] for panel in net.panels]), axis=1)
+    if len({chain.shape[1] for chain in chains}) > 1:
+        raise ValueError("panels whose bars are cut into different numbers of segments share no bars")
+    every = np.concatenate(chains)
+    _, first, which = np.unique(
+        ends[:, 0] * net.knot_count + ends[:, 1], return_index=True, return_inverse=True
+    )
+    own = every[first[which]]
+    turned = net.bars[own[:, 0], 0] != net.bars[every[:, 0], 0]
+    own[turned] = own[turned, ::-1]
+    gone = np.setdiff1d(every, own)
+    # Places within bars that go belong to nothing else.
+    ties = np.bincount(net.bars.ravel(), minlength=net.knot_count)
+    loose = np.bincount(net.bars[gone].ravel(), minlength=net.knot_count)
+    stays = (ties == 0) | (ties > loose)
+    place, number = np.cumsum(stays) - 1, np.cumsum(~np.isin(np.arange(net.bar_count), gone)) - 1
+    left = np.setdiff1d(np.arange(net.bar_count), gone)
+    rows = np.split(number[own], np.cumsum([len(chain) for chain in chains])[:-1])
+    return replace(
+        net,
+        positions=net.positions[stays],
+        labels=tuple(label for label, stay in zip(net.labels, stays.tolist(), strict=True) if stay),
+        fixed=net.fixed[stays],
+        bars=place[net.bars[left]],
+        rest_length=net.rest_length[left],
+        twine_of_bar=net.twine_of_bar[left],
+        knot_diameter=net.knot_diameter[stays],
+        knot_density=net.knot_density[stays],
+        load=net.load[stays],
+        panels=tuple(
+            replace(one, knots=place[one.knots], bars=bars)
+            for one, bars in zip(net.panels, rows, strict=True)
+        ),
+        ropes=tuple(replace(one, knots=place[one.knots], bars=number[one.bars]) for one in net.ropes),
+        bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),
+    )
+
+
 def seam(one: Indices, other: Indices, *, closed: bool = False) -> tuple[Indices, Indices]:
     """Pair the knots of two edges so that the edge with more meshes is taken up evenly on the one with fewer.
 

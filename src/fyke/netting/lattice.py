@@ -22,6 +22,7 @@ MeshKind = Literal["diamond", "square"]
 Mesh = MeshKind | Hexagon
 Edge = Literal["edges", "top", "corners", "none"]
 Side = Literal["top", "bottom", "left", "right"]
+Corner = Literal["corner1", "corner2", "corner3", "corner4"]  # upright, of a box
 
 # Lattice intervals per mesh along an axis.
 INTERVALS = {"diamond": 2, "square": 1}

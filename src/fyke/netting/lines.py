@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import brentq
 
 from .catenary import end_tension, hanging_line
@@ -73,7 +73,7 @@ def with_line(
     n, m = made.knot_count, made.bar_count
     made = replace(
         made,
-        labels=tuple(f"{name}:{label}" for label in made.labels),
+        labels=tuple(f"{name}:{label}" if name else label for label in made.labels),
         twines=twines,
         twine_of_bar=np.repeat([twines.index(piece.twine) for piece in pieces], segments),
         ropes=(Rope(name, np.arange(n), np.arange(m), "line"),),
@@ -88,8 +88,8 @@ def with_line(
 
 def length_for(
     pretension: float,
-    begin: tuple[float, float, float],
-    end: tuple[float, float, float],
+    begin: ArrayLike,
+    end: ArrayLike,
     twine: Twine,
     segments: int,
     *,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from .cutting import End, Taper
 from .hexagon import Hexagon
-from .lattice import Lattice, Mesh, Side, lattice, places
+from .lattice import Corner, Lattice, Mesh, Side, lattice, places
 from .twine import Twine
 
 Array = NDArray[np.float64]
@@ -26,7 +26,8 @@ class Panel:
     netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
     hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
     width (T90). Of netting cut to shape: cuts: of the left and the right side, from the wide end on, and the narrow
-    end; meshes and size are those of the wide end.
+    end; meshes and size are those of the wide end. folds: lattice columns of the corners of a box, where its wall is
+    folded.
     """
 
     name: str
@@ -43,6 +44,7 @@ class Panel:
     long_bar: float = 0.0
     turned: bool = False
     cuts: tuple[str, ...] = ()
+    folds: tuple[int, ...] = ()
 
     @property
     def taper(self) -> Taper | None:
@@ -69,9 +71,16 @@ class Panel:
         at = places(grid, self.kind, self.meshes, self.bar_length, self.size)
         return np.asarray((at - 0.5 * intervals) * (np.array(self.size) / intervals))
 
-    def edge(self, which: Side) -> NDArray[np.int64]:
-        """Knots of the net along an edge, in order from left to right or from below."""
-        return self.knots[self.lattice.edge(which)]
+    def edge(self, which: Side | Corner) -> NDArray[np.int64]:
+        """Knots of the net along an edge, in order from left to right or from below; corners: of a box."""
+        grid = self.lattice
+        if which in ("top", "bottom", "left", "right"):
+            return self.knots[grid.edge(which)]
+        number = int(which.removeprefix("corner")) - 1
+        if number >= len(self.folds):
+            raise ValueError(f"netting '{self.name}' has no {which}")
+        there = np.flatnonzero(grid.knots[:, 0] == self.folds[number])
+        return self.knots[there[np.argsort(grid.knots[there, 1], kind="stable")]]
 
 
 @dataclass(frozen=True)

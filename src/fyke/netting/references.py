@@ -8,13 +8,13 @@ from typing import cast, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from .lattice import Side
+from .lattice import Corner, Side
 from .net import Net
 
 Indices = NDArray[np.int64]
 
 # "NAME.EDGE[k]", of netting, and "NAME:k", of what is a row of knots.
-ON_EDGE = re.compile(r"(.*)\.(top|bottom|left|right)\[(\d{1,9})\]", re.ASCII)
+ON_EDGE = re.compile(r"(.*)\.(\w+)\[(\d{1,9})\]", re.ASCII)
 IN_ROW = re.compile(r"(.*):(\d{1,9})", re.ASCII)
 
 
@@ -40,8 +40,8 @@ def row_of(net: Net, text: str) -> Indices | None:
     """Return the knots in a row that a text names, "NAME.EDGE" of netting or the name of a rope, ring or line."""
     name, _, side = text.rpartition(".")
     for panel in net.panels:
-        if panel.name == name and side in get_args(Side):
-            return panel.edge(cast(Side, side))
+        if panel.name == name and side in (*get_args(Side), *get_args(Corner)):
+            return panel.edge(cast("Side | Corner", side))
     return next((rope.knots for rope in net.ropes if rope.name == text), None)
 
 

@@ -1,11 +1,12 @@
-"""Netting round an axis: cylinder, cone, frustum, cage. Seams close: the last column of knots is the first."""
+"""Netting that closes: cylinder, cone, frustum, round cage and box. Its last column of knots is the first."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .joining import joined, seam
+from .hexagon import Hexagon
+from .joining import joined, seam, with_shared_bars
 from .lattice import Edge
 from .net import Net
 from .sheet import Netting, sheet
@@ -97,3 +98,68 @@ def cage(
     whole = together([wall, floor])
     above, below = whole.panels
     return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))
+
+
+def box(
+    netting: Netting,
+    meshes: tuple[int, int, int],
+    *,
+    size: tuple[float, float, float],
+    bottom: bool = True,
+    top: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "box",
+) -> Net:
+    """Lay a cage with four upright walls and a flat bottom, its sides along x and y.
+
+    meshes: along x, along y and along the depth; size: m, likewise; bottom: whether it has one, of the meshes of its
+    sides; top: m, middle of the upper rim; fixed: which knots are held. The walls are one panel, NAME, that goes round
+    from the corner at +x -y by +x +y; its corners are corner1 to corner4 in this order. The bottom is NAME bottom, i
+    along x and j against y; along the seam it has the knots and the bars of the walls. ValueError for a bottom of
+    hexagons, whose edges do not match those of the walls.
+    """
+    if bottom and isinstance(netting.mesh, Hexagon):
+        raise ValueError("a bottom of hexagonal netting does not match its walls: leave it out")
+    nx, ny, nz = meshes
+    lx, ly, lz = size
+    folds = np.cumsum([0, ny, nx, ny, nx])
+    corners = 0.5 * np.array([(lx, -ly), (lx, ly), (-lx, ly), (-lx, -ly), (lx, -ly)])
+
+    def walls(steps: Array, intervals: Array) -> Array:
+        across = (steps[:, 0] + 0.5 * intervals[0]) * (folds[-1] / intervals[0])
+        x, y = (np.interp(across, folds, corner) for corner in corners.T)
+        return np.asarray(np.column_stack([x, y, lz * steps[:, 1] / intervals[1]]) + where)
+
+    where = np.array(top) - [0.0, 0.0, 0.5 * lz]
+    made = sheet(
+        netting,
+        (2 * (nx + ny), nz),
+        walls,
+        shape="box",
+        size=(2.0 * (lx + ly), lz),
+        closed=True,
+        folds=tuple(folds[:-1].tolist()),
+        fixed=fixed,
+        name=name,
+    )
+    if not bottom:
+        return made
+
+    def floor(steps: Array, intervals: Array) -> Array:
+        x, y = (steps * np.array([lx, -ly]) / intervals).T
+        return np.asarray(np.column_stack([x, y, np.full(len(x), -0.5 * lz)]) + where)
+
+    below = sheet(
+        netting,
+        (nx, ny),
+        floor,
+        shape="panel",
+        size=(lx, ly),
+        fixed="none",
+        name=f"{name} bottom".strip(),
+    )
+    whole = together([made, below])
+    wall, flat = whole.panels
+    right, near, left, far = (flat.edge(side) for side in ("right", "bottom", "left", "top"))
+    round_it = np.concatenate([right[:0:-1], near[:0:-1], left[:-1], far[:-1]])
+    return with_shared_bars(joined(whole, wall.edge("bottom")[:-1], round_it))

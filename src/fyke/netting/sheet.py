@@ -48,6 +48,7 @@ def sheet(
     closed: bool = False,
     tip: bool = False,
     taper: Taper | None = None,
+    folds: tuple[int, ...] = (),
     fixed: Edge = "edges",
     name: str = "",
 ) -> Net:
@@ -55,10 +56,10 @@ def sheet(
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
     knots is the first; tip: the lowest row is one knot; taper: how its sides are cut, meshes and size being those of
-    the wide end; fixed: which knots are held. Knots are labelled "i-j", with
-    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
-    "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to a tip, and for
-    netting both cut and closed.
+    the wide end; folds: meshes from the left at which it is folded; fixed: which knots are held. Knots are labelled
+    "i-j", with "name:" before it when there is a name; those within a bar of several segments by the bar's ends and
+    their number, "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to
+    a tip, and for netting both cut and closed.
     """
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
     if hexagon and (tip or (closed and hexagon.turned)):
@@ -104,6 +105,7 @@ def sheet(
         long_bar=hexagon.long_bar * netting.bar_length if hexagon else 0.0,
         turned=hexagon.turned if hexagon else False,
         cuts=(taper.left, taper.right, taper.narrow) if taper else (),
+        folds=tuple(grid.intervals[0] // meshes[0] * fold for fold in folds),
     )
     rest_length = np.empty(len(ends))
     rest_length[bars] = rest_lengths(grid, netting.mesh, netting.bar_length) / s

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from ..netting.faces import faces_of
+from ..netting.lattice import Side
 from ..netting.net import Net
 from ..solve.result import Result
 from . import style
@@ -44,7 +45,7 @@ def sections(
     if not closed:
         return None
     flow, words = _flow(current, waves)
-    triangles = _triangles(net, closed)
+    triangles = _triangles(net, closed + _floors(net, closed))
     middle = 0.5 * np.sum([f(net.positions[np.unique(triangles)], axis=0) for f in (np.min, np.max)], axis=0)
     shapes = net.positions, result.position[-1]
     cuts = [_cut(x, triangles, middle, flow) for x in shapes]
@@ -72,6 +73,17 @@ def _flow(current: ArrayLike | None, waves: ArrayLike | None) -> tuple[Array, st
         if level.any():
             return level / np.linalg.norm(level), words
     return np.array([1.0, 0.0, 0.0]), ""
+
+
+def _floors(net: Net, closed: list[int]) -> list[int]:
+    """Flat panels whose whole edge lies on closed netting: the bottoms of boxes."""
+    walls = np.unique(np.concatenate([net.panels[which].knots for which in closed]))
+    sides: tuple[Side, ...] = ("top", "bottom", "left", "right")
+    return [
+        which
+        for which, panel in enumerate(net.panels)
+        if not panel.closed and all(np.isin(panel.edge(side), walls).all() for side in sides)
+    ]
 
 
 def _triangles(net: Net, panels: list[int]) -> Indices:

@@ -34,7 +34,7 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: its netting in the order of the file, then its ropes, its lines, its floats and sinkers."""
+    """Make the net of a case: its netting as the file has it, then ropes, lines, floats and sinkers."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
     nets = [piece.lay(netting, twines[netting.twine]) for piece, netting in made]

@@ -51,7 +51,7 @@ def _ways(net: Net | None, part: LaidSpec, case: Case) -> list[Way]:
     x, y = net.positions[np.unique(rim), :2].mean(axis=0).tolist()
     knots = around(rim, net.positions, part.bearing, part.count)
     anchors = part.anchors((x, y), case.water.depth or 0.0)
-    return [Way(*one) for one in zip(part.names(), anchors, knots.tolist(), strict=True)]
+    return [Way(*one) for one in zip(part.names(part.name), anchors, knots.tolist(), strict=True)]
 
 
 def _end(net: Net | None, told: End | str) -> End | None:
@@ -65,7 +65,7 @@ def _laid(net: Net | None, part: LaidSpec, way: Way, case: Case) -> Net:
     bed = -water.depth if case.bed is not None and water.depth is not None else None
     if part.pretension is not None and part.twine is not None:
         first, last = (
-            one if isinstance(one, tuple) or net is None else tuple(net.positions[one].tolist())
+            np.array(one) if isinstance(one, tuple) or net is None else net.positions[one]
             for one in (way.begin, way.end)
         )
         twine, count = twines[part.twine], part.segments

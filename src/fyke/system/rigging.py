@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
-from ..netting.lattice import Side
+from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.references import knot_at, row_of
 from ..netting.rigging import evenly, with_bodies, with_rope
@@ -46,10 +46,10 @@ def _roped(net: Net | None, case: Case) -> Net | None:
     return net
 
 
-def _edge(net: Net, along: str) -> tuple[Panel, Side]:
+def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
     """Return the netting and the edge of it that NAME.EDGE says."""
     name, _, side = along.rpartition(".")
-    return next(panel for panel in net.panels if panel.name == name), cast(Side, side)
+    return next(panel for panel in net.panels if panel.name == name), cast("Side | Corner", side)
 
 
 def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:
@@ -67,7 +67,7 @@ def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:
 
 def _labelled(net: Net, bodies: BodiesSpec, case: Case) -> Iterator[int]:
     """Yield the knots of their labels, one in every line where moorings are named."""
-    moorings = {part.name: part.names() for part in case.lines if isinstance(part, MooringsSpec)}
+    moorings = {part.name: part.names(part.name) for part in case.lines if isinstance(part, MooringsSpec)}
     number = {label: knot for knot, label in enumerate(net.labels)}
     for label in bodies.at or ():
         name, _, place = label.rpartition(":")
