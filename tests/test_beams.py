@@ -6,13 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 import fyke
 from fyke.forces.bending import Bending
+from fyke.netting.lines import LinePiece, with_line
 from fyke.netting.rigging import with_rope
 from fyke.netting.together import together
-from fyke.netting.tubes import ring
+from fyke.netting.tubes import Tube, ring
 from fyke.results.derive import summary
 from fyke.solve.pattern import Pattern
 from reference import NO_FORCES, NO_WATER
@@ -328,3 +330,96 @@ def test_a_free_swinging_beam_keeps_its_period(stepper):
     tip = result.position[:, -1] @ up[-1]
     exact = tip[0] + 1e-3 * (up[-1] @ up[-1]) * np.sin(modes.frequency[0] * result.time) / modes.frequency[0]
     assert tip == pytest.approx(exact, abs=0.02 * np.ptp(exact))
+
+
+# Afloat.
+
+
+def afloat(n, part, radius=2.0, diameter=0.1, current=0.0, stiffness=1e5):
+    """A level ring of a density part of the water's, held in its place by four soft threads on the surface."""
+    area = np.pi / 4.0 * diameter**2
+    law = fyke.LinearLaw(1e7 / area)
+    pipe = fyke.Twine("pipe", part * 1000.0, diameter, law, compression=True, bending_stiffness=stiffness)
+    net = ring(pipe, diameter=2.0 * radius, knots=n)
+    soft = fyke.Twine("soft", 1000.0, 1e-6, fyke.LinearLaw(1.0 / (np.pi / 4.0 * 1e-12)))
+    for k in range(4):
+        angle = 0.5 * np.pi * k
+        anchor = (3.0 * radius * np.cos(angle), 3.0 * radius * np.sin(angle), 0.0)
+        net = with_line(
+            net, anchor, k * n // 4, [LinePiece(soft, 1.8 * radius, 1)], name=f"m{k}", held=(True, False)
+        )
+    water = fyke.Coefficients(knots=fyke.ConstantKnot(0.0))
+    return fyke.make_system(net, current=(current, 0.0, 0.0), coefficients=water, surface=True)
+
+
+def deep(part):
+    """Radii that the middle of a level tube lies under water when this part of its circle is wet."""
+    return brentq(
+        lambda s: 0.5 + (s * np.sqrt(1 - s * s) + np.arcsin(s)) / np.pi - part, -1.0, 1.0, xtol=1e-14
+    )
+
+
+@pytest.mark.parametrize("part", [0.2, 0.5, 0.9])
+def test_a_floating_ring_dives_by_the_segment_of_its_density(part):
+    result = fyke.solve_static(afloat(16, part), tolerance=1e-6)
+    assert result.outcome.ok and result.outcome.iterations < 20, result.outcome
+    assert result.position[-1][:16, 2] == pytest.approx(np.full(16, -0.05 * deep(part)), abs=1e-6)
+
+
+@pytest.mark.parametrize("part", [0.3, 0.5])
+def test_heave_of_a_floating_ring(part):
+    """omega^2 = rho g b/(m + a) a metre of tube, b the width of its water line, a the water moved with its wet part.
+
+    Heave, pitch and roll of a ring have the same frequency; the buoyancy of a bar acts half at each end, which makes
+    pitch and roll softer by the cosine of half a bar's turn.
+    """
+    system = afloat(24, part)
+    level = fyke.solve_static(system, tolerance=1e-7).position[-1]
+    modes = fyke.modes(system, level, count=12)
+    width, area = 0.1 * np.sqrt(1.0 - deep(part) ** 2), np.pi / 4.0 * 0.01
+    exact = np.sqrt(1000.0 * 9.81 * width / (2.0 * part * 1000.0 * area))
+    up = np.abs(modes.shape[:, :24, 2]).max(axis=1) > 0.9
+    tilt = np.cos(np.pi / 24) * exact
+    assert modes.frequency[up][:3] == pytest.approx([tilt, tilt, exact], rel=1e-4)
+
+
+def test_a_ring_let_go_above_its_draught_heaves_with_its_period():
+    """Without drag; the water line of a tube half under water changes with the square of the motion alone."""
+    system = afloat(16, 0.5)
+    system = replace(
+        system, elements=system.elements._replace(normal_drag=np.zeros(20), tangential_drag=np.zeros(20))
+    )
+    period = 2.0 * np.pi * np.sqrt(2.0 * 500.0 * np.pi / 4.0 * 0.01 / (1000.0 * 9.81 * 0.1))
+    start = fyke.solve_static(system, tolerance=1e-7).state()
+    start = fyke.State(0.0, start.position.copy(), start.velocity.copy())
+    start.position[:16, 2] += 5e-4
+    run = fyke.simulate(
+        system,
+        duration=1.5 * period,
+        every=0.5 * period,
+        start=start,
+        stepper=fyke.Implicit(rtol=0.0, atol=1e-8),
+    )
+    assert run.outcome.ok, run.outcome
+    assert run.position[:, :16, 2].mean(axis=1) == pytest.approx(
+        5e-4 * np.array([1.0, -1.0, 1.0, -1.0]), abs=2e-5
+    )
+
+
+def test_a_rigid_ring_keeps_its_shape():
+    """A flexible ring in a current and the same one made rigid: it moves as before, and hardly bends."""
+    flexible = Tube.of("HDPE", diameter=0.1, wall=0.006)
+    bends = []
+    for rigid in (False, True):
+        twine = replace(flexible, rigid=rigid).twine("pipe")
+        net = ring(twine, diameter=4.0, knots=24)
+        rope = fyke.Twine("rope", 1000.0, 0.01, fyke.LinearLaw(1e8))
+        net = with_line(net, (-20.0, 0.0, 0.0), 12, [LinePiece(rope, 18.0, 4)], name="m", held=(True, False))
+        result = fyke.solve_static(
+            fyke.make_system(net, current=(1.0, 0.0, 0.0), surface=True), tolerance=1e-5
+        )
+        assert result.outcome.ok, result.outcome
+        x = result.position[-1][:24]
+        across = np.linalg.norm(x[:12] - x[12:], axis=1)
+        bends.append(np.ptp(across) / 4.0)
+    assert bends[0] > 1e-2 and bends[1] < 1e-4

@@ -238,6 +238,7 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
     lines = template().splitlines()
     waves = lines.index("# [waves]")
     own = next(i for i, line in enumerate(lines) if line.startswith("# [material.own]"))
+    loads = next(i for i, line in enumerate(lines) if line.startswith("# [[load_case]]"))
     irregular, after = (
         lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
         lines.index("", waves),
@@ -259,6 +260,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         if own <= number < lines.index("", own):
             # The table begins with its name and the one key that it must have.
             shown[own : own + 2] = [old[2:] for old in lines[own : own + 2]]
+        if loads <= number < lines.index("", loads):
+            shown[loads] = "[[load_case]]"
         if waves < number < after:
             size = ('kind = "jonswap"', "significant_height = 1.0", 'peak_period = "6 s"')
             size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')

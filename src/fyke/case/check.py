@@ -19,6 +19,7 @@ from .gear_check import gear_findings, has_bottom, reference
 from .keys import nearest
 from .line_check import line_findings
 from .lines import ChainSpec, LaidSpec
+from .load_case import load_case_file_problems, load_case_findings
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
@@ -161,6 +162,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _waves(parts)
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
+    yield from _load_cases(parts)
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -172,6 +174,7 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
     ):
         for number, problem in enumerate(problems):
             yield (*key, number), problem
+    yield from load_case_file_problems(parts)
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:
@@ -374,3 +377,9 @@ def _waves(parts: Parts) -> Iterator[Finding]:
     water = _valid(Water, parts.raw.get("water", {}))
     if water is not None and "waves" in parts.raw:
         yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
+
+
+def _load_cases(parts: Parts) -> Iterator[Finding]:
+    water = _valid(Water, parts.raw.get("water", {}))
+    depth, gravity = (None, None) if water is None else (water.depth, water.gravity)
+    yield from load_case_findings(parts, depth, gravity)

@@ -18,6 +18,7 @@ from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
+from .load_case import LoadCaseSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
@@ -169,6 +170,12 @@ class Case(Table):
     solve: SolveSpec = Field(default=StaticSolve(), description="how to solve")
     output: Output = Field(default=Output(), description="what to write")
     compare: Compare | None = Field(default=None, description="measurements")
+    load_case: tuple[LoadCaseSpec, ...] = Field(
+        default=(), description="the same gear in other currents and waves, one [[load_case]] each"
+    )
+    chosen_load_case: Name | None = Field(
+        default=None, description="name of the one load case that is meant, in place of [current] and [waves]"
+    )
     _text: str = PrivateAttr(default="")
     _path: Path | None = PrivateAttr(default=None)
     _warnings: tuple[str, ...] = PrivateAttr(default=())

@@ -190,6 +190,14 @@ kind = "static"                      # static | dynamic
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
 # probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
 
+# [[load_case]]                      # the same gear in other water: one table, folder and row of loads.csv for each
+# name = "50 years"
+# current = { speed = 0.9, direction = "0 deg" }     # with the keys of [current], in its place
+# waves = { kind = "jonswap", significant_height = 2.5, peak_period = "7 s" }        # in place of [waves]
+# load_factor = 1.3                  # of the utilisation of breaking strengths, as material_factor is
+# material_factor = 1.5
+# By chosen_load_case at the top of the file, the name of one, that one is run alone.
+
 # [compare]                          # measured positions to lay over the result
 # positions = "measured.csv"         # beside this file; columns knot,x,y,z (m), knot as "row-column"
 """

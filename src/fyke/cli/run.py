@@ -5,11 +5,8 @@ from __future__ import annotations
 import math
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-from rich.text import Text
 
 from ..case import Case, CaseError, Problem, load_case
 from ..forces.evaluate import evaluate
@@ -24,6 +21,7 @@ from ..results import (
     compare,
     flow_direction,
     load,
+    load_figures,
     mean_current,
     moments,
     out_of_range,
@@ -33,6 +31,7 @@ from ..results import (
     save_checkpoint,
     summary,
     water_figures,
+    write_loads,
     write_parts,
     write_probes,
     write_summary,
@@ -46,13 +45,15 @@ from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
-from ..system.system import System
+from ..system.system import State, System
 from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
+from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
 from .progress import progress_bar
 from .show import (
     DONE,
     NOT_CONVERGED,
     WRONG_INPUT,
+    complain,
     print_json,
     print_problems,
     print_rows,
@@ -67,23 +68,6 @@ from .show import (
 LEAST_SHOWN = 1e-3
 
 Stopped = tuple[Checkpoint, list[Frame]]
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """The options of a run; output: folder to write to, None for the case's name."""
-
-    output: Path | None = None
-    figures: bool = True
-    overwrite: bool = False
-    resume: bool = False
-    quiet: bool = False
-    json: bool = False
-
-    @property
-    def talk(self) -> bool:
-        """Whether to print for a reader."""
-        return not (self.quiet or self.json)
 
 
 def run_case(file: Path, wishes: Wishes, began: float | None = None) -> int:
@@ -117,10 +101,13 @@ def _prepare(file: Path, folder: Path, wishes: Wishes) -> tuple[Case, System, St
     if case.positions_file:
         # A fault of this file is told before the solve, and before an old result is taken away.
         compare(_as_built(case, system), case.positions_file)
+    if wishes.resume:
+        refuse_load_cases(case, folder)
     resume = stopped(folder, case) if wishes.resume else None
     if resume is None:
         make_sure_of_room(folder, system.net, planned_frames(case))
         claim(folder, overwrite=wishes.overwrite)
+    claim_load_cases(case, folder, wishes)
     return case, system, resume
 
 
@@ -143,8 +130,36 @@ def _cannot_write(folder: Path, error: OSError) -> Problem:
 def _run(
     case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None, clock: Clock
 ) -> int:
+    done = _solve_and_write(case, system, folder, wishes, clock, resume=resume)
+    figures, rows = done.figures, run_load_cases(case, system, done, folder, wishes, _solve_and_write)
+    if rows:
+        write_loads(rows, folder)
+        figures |= load_figures(rows) | {"time_by_part": clock.seconds}
+        write_summary(figures, folder)
+    if wishes.json:
+        print_json(figures)
+    elif wishes.talk:
+        _show(case, figures, done.pictures, folder)
+        print_loads(stdout(), rows)
+    if not done.result.outcome.ok:
+        complain(done.result.outcome)
+    fine = done.result.outcome.ok and len(rows) == len(case.load_case) and all(row.ok for row in rows)
+    return DONE if fine else NOT_CONVERGED
+
+
+def _solve_and_write(
+    case: Case,
+    system: System,
+    folder: Path,
+    wishes: Wishes,
+    clock: Clock,
+    *,
+    resume: Stopped | None = None,
+    start: State | None = None,
+) -> Done:
+    """Solve one case and write all that there is of it; start: of a static solve."""
     with timed("forces"):
-        result = _solve(case, system, folder, wishes, resume)
+        result = _solve(case, system, folder, wishes, resume, start)
     with timed("accounts"):
         comparison = compare(result, case.positions_file) if case.positions_file else None
         figures = _figures_of(case, system, result, comparison)
@@ -159,17 +174,12 @@ def _run(
         pictures = _draw(system, result, folder, comparison, probes) if wishes.figures else []
     figures["time_by_part"] = clock.seconds
     write_summary(figures, folder)
-    if wishes.json:
-        print_json(figures)
-    elif wishes.talk:
-        _show(case, figures, pictures, folder)
-    if result.outcome.ok:
-        return DONE
-    stderr().print(Text(f"{result.outcome.name}: {result.outcome.message}\n{result.outcome.advice}".rstrip()))
-    return NOT_CONVERGED
+    return Done(result, figures, pictures)
 
 
-def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None) -> Result:
+def _solve(
+    case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None, start: State | None
+) -> Result:
     """Solve a case, with every output and a checkpoint on disk as it comes, and leave the whole result in the file."""
     file, times, weight = folder / RESULT, planned_frames(case), system.weight_in_water
     frames = resume[1] if resume else ()
@@ -190,7 +200,13 @@ def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Sto
     ):
         try:
             result = solve_case(
-                system, case, on_frame=append, on_progress=report, on_checkpoint=keep, resume=resume
+                system,
+                case,
+                on_frame=append,
+                on_progress=report,
+                on_checkpoint=keep,
+                resume=resume,
+                start=start,
             )
         except KeyboardInterrupt:
             recorder.close()

@@ -5,6 +5,7 @@ from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkp
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .layout import frame_bytes
+from .loads import LoadRow, PartLoad, load_figures, load_row, worst_of, write_loads
 from .parts import PartFigures, by_part, part_figures, write_parts
 from .probes import Probes, probe, probes_of, write_probes
 from .ranges import OutOfRange, moments, out_of_range
@@ -18,9 +19,11 @@ __all__ = [
     "CheckpointError",
     "Comparison",
     "EnergyBudget",
+    "LoadRow",
     "MeasurementError",
     "OutOfRange",
     "PartFigures",
+    "PartLoad",
     "Probes",
     "Recorder",
     "ResultError",
@@ -32,6 +35,8 @@ __all__ = [
     "frames_of",
     "load",
     "load_checkpoint",
+    "load_figures",
+    "load_row",
     "mean_current",
     "moments",
     "out_of_range",
@@ -42,6 +47,8 @@ __all__ = [
     "save_checkpoint",
     "summary",
     "water_figures",
+    "worst_of",
+    "write_loads",
     "write_parts",
     "write_probes",
     "write_summary",
