@@ -12,7 +12,7 @@ further runs across the modes already found look for what was missed, until noth
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -81,7 +81,7 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     x = np.ascontiguousarray(position, dtype=float)
     _check(system, x, count)
     n, still = system.net.knot_count, np.zeros_like(x)
-    around = Surroundings(replace(system, waves=None))
+    around = Surroundings(system.resting())
     el, _ = around.at(x, still, 0.0)
     # About the net's middle, coordinates are smallest and so is their rounding.
     x = x - x.mean(axis=0)

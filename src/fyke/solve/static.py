@@ -72,9 +72,7 @@ def solve_static(
     values that are no numbers. Waves are left out.
     """
     began = time.perf_counter()
-    system = replace(
-        system, waves=None, bed=system.bed and replace(system.bed, laid=system.net.positions[:, :2])
-    )
+    system = system.resting()
     begin = _begin(system, tolerance, max_iterations, start)
     nest = _nested(system, begin, tolerance, on_progress)
     begin = nest.start if nest else begin

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +67,11 @@ class System:
     motion: Motion | None = None
     sources: tuple[str, ...] = ()
     case_text: str = ""
+
+    def resting(self) -> System:
+        """Return the system as statics takes it: no waves, friction from where the net was laid."""
+        bed = self.bed and replace(self.bed, laid=self.net.positions[:, :2])
+        return replace(self, waves=None, bed=bed)
 
     def at_rest(self) -> State:
         """Return the state that the net was built in, at time 0, at rest but for held knots that move."""
