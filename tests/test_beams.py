@@ -285,6 +285,11 @@ def test_modes_say_that_a_strut_beyond_its_buckling_load_does_not_stay():
     straight[:, 2] *= 1.0 - 1.2 * critical / 1e7
     with pytest.raises(ValueError, match="not stable"):
         fyke.modes(system, straight, count=2)
+    # Statics finds this equilibrium, since nothing pushes it aside, and says what it is.
+    result = fyke.solve_static(system, tolerance=1e-8)
+    assert result.outcome.ok and "not stable" in result.outcome.warnings[0]
+    below = cantilever(16, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical))
+    assert fyke.solve_static(below, tolerance=1e-8).outcome.warnings == ()
 
 
 def test_a_ring_swings_in_its_plane():

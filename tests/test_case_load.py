@@ -217,6 +217,17 @@ hanging_ratio = 0.6
     assert case.bed is not None and case.chain["links"].bar_diameter == 0.013
 
 
+def test_the_motion_of_the_template_can_be_used(tmp_path):
+    lines = template().splitlines()
+    (tmp_path / "motion.csv").write_text("time,dx,dy,dz\n0,0,0,0\n2,0,0,0.1\n")
+    first = lines.index("# [[motion]]")
+    block = [line[2:].replace('"cage.top"', '".top"') for line in lines[first : lines.index("", first)]]
+    text = "\n".join([*lines[:first], *block, *lines[lines.index("", first) :]])
+    dynamic = text.replace('kind = "static"', 'kind = "dynamic"\nduration = 2.0')
+    case = parse_case(dynamic, path=tmp_path / "case.toml")
+    assert case.motion[0].model_fields_set == set(type(case.motion[0]).model_fields)
+
+
 def beside_netting_and_twine(key, lines):
     """Change what keys of netting and twine cannot stand beside."""
     if key == "long_bar":
@@ -243,7 +254,12 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
         lines.index("", waves),
     )
-    parts = {*gear_of_the_template(lines), *lines_of_the_template(lines)}
+    moved = lines.index("# [[motion]]")
+    parts = {
+        *gear_of_the_template(lines),
+        *lines_of_the_template(lines),
+        *range(moved, lines.index("", moved)),
+    }
     for number, line in enumerate(lines):
         words = ("The", "A ", "For", "By")
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(words) or number in parts:

@@ -485,6 +485,7 @@ def test_the_schema_knows_every_kind():
         "trapezoid",
         "triangle",
         "box",
+        "seam",
         "cylinder",
         "cone",
         "frustum",

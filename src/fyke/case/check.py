@@ -20,15 +20,17 @@ from .keys import nearest
 from .line_check import line_findings
 from .lines import ChainSpec, LaidSpec
 from .load_case import load_case_file_problems, load_case_findings
+from .motion_check import motion_file_problems, motion_findings
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
+from .seams import SeamSpec
 from .twine import MaterialSpec, TableSpec, TwineSpec
 from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"rope", "line", "moorings", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"seam", "rope", "line", "moorings", "sinkers", "floats"}  # kinds of gear that are not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -79,6 +81,11 @@ class Parts:
         return {i: part for i, part in self.gear.items() if isinstance(part, Piece)}
 
     @property
+    def seams(self) -> dict[int, SeamSpec]:
+        """Gear that is seams, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, SeamSpec)}
+
+    @property
     def ropes(self) -> dict[int, RopeSpec]:
         """Gear that is ropes, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
@@ -99,9 +106,13 @@ class Parts:
         names = []
         for index, keys in self.gear_tables():
             if not RIGGING & {keys.get("kind") if isinstance(keys.get("kind"), str) else ""}:
-                name = self.name_of(index)
-                names += [name, f"{name} bottom".strip()] if has_bottom(keys) else [name]
+                names += self.names_of(index, keys)
         return names
+
+    def names_of(self, index: int, keys: dict[str, Any]) -> list[str]:
+        """Name of a part of these keys, and that of its bottom."""
+        name = self.name_of(index)
+        return [name, f"{name} bottom".strip()] if has_bottom(keys) else [name]
 
     def name_of(self, index: int, sheet: Sheet | None = None) -> str:
         """Name that a part of the gear will have, or the bottom of one, a sheet that is sewn to another."""
@@ -163,6 +174,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
     yield from _load_cases(parts)
+    yield from motion_findings(parts, _valid(DynamicSolve, parts.raw.get("solve")))
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -175,6 +187,7 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
         for number, problem in enumerate(problems):
             yield (*key, number), problem
     yield from load_case_file_problems(parts)
+    yield from motion_file_problems(parts)
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:

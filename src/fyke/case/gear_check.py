@@ -17,6 +17,7 @@ from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .rows import in_row_findings, rows_of
+from .seams_check import joined_names, seam_findings
 from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
 from .tapered_check import cutting
@@ -65,6 +66,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
     sheets = sheets_of(parts)
+    yield from seam_findings(parts, sheets)
     for index, rope in parts.ropes.items():
         yield from _rope(("gear", index), rope, parts, sheets)
     for index, bodies in parts.bodies.items():
@@ -100,12 +102,25 @@ def has_bottom(keys: dict[str, Any]) -> bool:
 
 
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
-    if parts.is_static and keys.get("fixed") == "none":
+    if parts.is_static and keys.get("fixed") == "none" and not _hangs(path, parts):
         panel = keys.get("kind") in _FLAT
         allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
         hold = "edges" if panel else "top"
         cure = f'nothing would hold it: write fixed = "{hold}", or solve with kind = "dynamic"'
         yield (*path, "fixed"), '"none"', allowed, cure
+
+
+def _hangs(path: Path, parts: Parts) -> bool:
+    """Whether seams join a part, by way of others or not, to one that is held."""
+    held = {parts.name_of(i) for i, keys in parts.gear_tables() if keys.get("fixed") != "none"}
+    owner = {name: parts.name_of(i) for i, keys in parts.gear_tables() for name in parts.names_of(i, keys)}
+    pairs = [{owner.get(one, one) for one in joined_names(keys)} for _, keys in parts.gear_tables()]
+    if any(one not in owner for pair in pairs for one in pair):
+        return True  # whatever a seam means that names no part, and is told
+    known = {parts.name_of(cast(int, path[1]))}
+    while any(pair & known and pair - known for pair in pairs):
+        known = known.union(*(pair for pair in pairs if pair & known))
+    return bool(known & held & set(parts.netting_names))
 
 
 def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import numpy as np
 
-from ..netting.lattice import hanging_ratios
+from ..netting.joining import stitches
+from ..netting.lattice import Corner, Side, hanging_ratios
+from ..netting.together import together
 from .gear import LARGEST_STRAIN
+from .motion_check import motion_oddities
 from .schema import Case
 from .water_check import current_oddities
 from .waves import wave_oddities
@@ -24,10 +28,12 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_frames(case),
         *_unused(case),
         *_no_effect(case),
+        *_seams(case),
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
         *current_oddities(case),
+        *motion_oddities(case),
     )
 
 
@@ -102,6 +108,31 @@ def _no_effect(case: Case) -> Iterator[str]:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
+
+
+def _seams(case: Case) -> Iterator[str]:
+    """Edges that lie apart before they are joined."""
+    owner = {
+        sheet.name: piece for piece in case.pieces for sheet in piece.sheets(case.netting[piece.netting])
+    }
+    for seam in case.seams:
+        one, other = (cast("tuple[str, Side | Corner]", edge.rpartition(".")[::2]) for edge in seam.join)
+        both = [owner[name] for name in dict.fromkeys((one[0], other[0]))]
+        pieces = [piece for k, piece in enumerate(both) if piece not in both[:k]]
+        net = together(
+            [
+                piece.lay(case.netting[piece.netting], case.twines[case.netting[piece.netting].twine])
+                for piece in pieces
+            ]
+        )
+        stays, goes = stitches(net, one, other)
+        apart = float(np.linalg.norm(net.positions[stays] - net.positions[goes], axis=1).max())
+        mesh = 2.0 * max(panel.bar_length for panel in net.panels)
+        if apart > mesh:
+            yield (
+                f"The edges of seam '{seam.name}' lie up to {apart:.3g} m apart, more than a stretched mesh of "
+                f"{mesh:.3g} m: their knots are put together, and the bars there begin as long as that makes them."
+            )
 
 
 def _sheltered_twice(case: Case) -> Iterator[str]:

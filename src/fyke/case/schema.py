@@ -19,8 +19,10 @@ from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
 from .load_case import LoadCaseSpec
+from .motion import MotionSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
@@ -100,6 +102,7 @@ Gear = Annotated[
     | ConeSpec
     | FrustumSpec
     | BoxSpec
+    | SeamSpec
     | RopeSpec
     | LineSpec
     | MooringsSpec
@@ -164,6 +167,7 @@ class Case(Table):
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
         description="panels, shapes, ropes, lines, sinkers and floats, one [[gear]] each"
     )
+    motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
     shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
@@ -192,6 +196,8 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        for motion in self.motion:
+            motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
@@ -234,6 +240,11 @@ class Case(Table):
     def pieces(self) -> tuple[Piece, ...]:
         """The gear that is netting."""
         return tuple(part for part in self.gear if isinstance(part, Piece))
+
+    @property
+    def seams(self) -> tuple[SeamSpec, ...]:
+        """The gear that is seams."""
+        return tuple(part for part in self.gear if isinstance(part, SeamSpec))
 
     @property
     def ropes(self) -> tuple[RopeSpec, ...]:

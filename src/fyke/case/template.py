@@ -150,6 +150,17 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "rope"
 # length = "25 m"
 
+# Held knots that move, in a dynamic case; several [[motion]] of the same knots add up:
+# [[motion]]
+# of = ["cage.top"]                  # NAME.EDGE, labels of knots, names of gear; all held knots by default
+# velocity = [-0.5, 0.0, 0.0]        # m/s, of a tow
+# amplitude = [0.0, 0.0, 0.5]        # m, of a swing, amplitude x sin(2 pi t / period + phase)
+# period = "6 s"
+# phase = "0 deg"
+# rotation = { axis = [0, 1, 0], point = [0, 0, 0], amplitude = "5 deg", period = "6 s" }   # or rate = "10 deg/s"
+# file = "motion.csv"                # columns time,dx,dy,dz (s, m), time,roll,pitch,yaw (deg) or all of them
+# ramp = "2 s"                       # smooth start
+
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
 knots = { law = "constant", drag = 1.0 }                       # on pi d^2 / 4

@@ -15,12 +15,13 @@ from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Panel
 from ..results.ranges import bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
+from ..system.carriage import seen_from_the_carriage
 from ..system.system import System
 from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from ..water.wakes import GivenWake
-from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of
+from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of, seam_rows, seams_of
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -64,8 +65,9 @@ def judge(case: Case) -> dict[str, Any]:
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats and sinkers, one table each kind, mass (kg),
-    diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one, total_weight of all.
+    seams: one table each, knots of both edges; ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats
+    and sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N, negative floats) and drag_area (m2)
+    of each one, total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -73,8 +75,7 @@ def judge(case: Case) -> dict[str, Any]:
     system = build_system(net, case)
     measures, viscosity = measure_net(net), system.water.kinematic_viscosity
     steady = replace(
-        system,
-        current=at_full_strength(system.current),
+        _from_the_carriage(system),
         waves=None,
         coefficients=replace(system.coefficients, wake=None, twines=None),
     )
@@ -92,18 +93,38 @@ def judge(case: Case) -> dict[str, Any]:
         "current": list(case.current.at_surface),
         "current_words": case.current.described,
         "waves": case.waves.described if case.waves else None,
+        "motion": _motions(case, system),
         "drag": _drag(system),
         "shelter": _shelter(system),
         "panels": [
             _panel(case, system, panel, made, *numbers)
             for panel, made in zip(net.panels, case.sheets, strict=True)
         ],
+        "seams": seams_of(case),
         "ropes": ropes_of(case, system),
         "bodies": bodies_of(case, system),
         "warnings": [*case.warnings, *outside.warnings],
         "out_of_range": outside.counts,
         "case_sha256": case.sha256,
     }
+
+
+def _from_the_carriage(system: System) -> System:
+    """Return a towed system as it is seen from the carriage, where one carriage tows it."""
+    full = replace(system, current=at_full_strength(system.current))
+    try:
+        return seen_from_the_carriage(full)
+    except ValueError:
+        return full
+
+
+def _motions(case: Case, system: System) -> list[dict[str, Any]]:
+    """Return how many knots each motion moves, of what, and how."""
+    moves = system.motion.moves if system.motion else ()
+    return [
+        {"of": list(spec.of) if spec.of else None, "knots": len(move.knots), "words": spec.described}
+        for spec, move in zip(case.motion, moves, strict=False)
+    ]
 
 
 def _drag(system: System) -> dict[str, str]:
@@ -166,6 +187,13 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         ("solve", findings["solve"]),
         ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
         *([("waves", findings["waves"])] if findings["waves"] else []),
+        *(
+            (
+                "motion",
+                f"{', '.join(one['of'] or ['all that is held'])} ({one['knots']} knots): {one['words']}",
+            )
+            for one in findings["motion"]
+        ),
         ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
         ("bars", f"{findings['bars']}"),
         ("drag", _words(findings["drag"])),
@@ -177,6 +205,8 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     for panel in findings["panels"]:
         name = f"{panel['shape']} {panel['name']}".rstrip()
         print_rows(console, f"{name}: {panel['mesh']} netting '{panel['netting']}'", _panel_rows(panel))
+    for seam in findings["seams"]:
+        print_rows(console, f"seam {seam['name']}", seam_rows(seam))
     for rope in findings["ropes"]:
         print_rows(console, f"rope {rope['name']}: twine '{rope['twine']}'", rope_rows(rope))
     for bodies in findings["bodies"]:

@@ -1,16 +1,40 @@
-"""What `fyke check` tells of ropes, floats and sinkers."""
+"""What `fyke check` tells of seams, ropes, floats and sinkers."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from ..case import Case
+from ..netting.lattice import Corner, Side
 from ..system.system import System
 from .show import quantity
 
 ROUNDING = 1e-9  # of a strain
+
+
+def seams_of(case: Case) -> list[dict[str, Any]]:
+    """Return the seams of a case, ready for JSON; knots: of either edge, each once."""
+    sheets = {sheet.name: (netting, sheet) for netting, sheet in case.sheets}
+    out = []
+    for seam in case.seams:
+        knots = []
+        for edge in seam.join:
+            name, _, side = edge.rpartition(".")
+            netting, sheet = sheets[name]
+            knots.append(sheet.edge(cast("Side | Corner", side), netting.mesh)[0])
+        out.append({"name": seam.name, "join": list(seam.join), "knots": knots, "take_up": seam.take_up})
+    return out
+
+
+def seam_rows(seam: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what is shown of a seam."""
+    take_up = seam["take_up"]
+    return [
+        *((edge, f"{count} knots") for edge, count in zip(seam["join"], seam["knots"], strict=True)),
+        *([("take-up", f"{take_up:.4g}")] if take_up is not None else []),
+    ]
 
 
 def ropes_of(case: Case, system: System) -> list[dict[str, Any]]:

@@ -352,6 +352,8 @@ def _account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         }
         if energy["inertia_work"]:
             taken["inertia of the water"] = energy["inertia_work"]
+        if energy["support_work"]:
+            taken["moved supports"] = energy["support_work"]
         if energy["parts_work"]:
             taken["bending and bed"] = energy["parts_work"]
         given = {

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .lattice import Corner, Side
 from .net import Net
 
 Array = NDArray[np.float64]
@@ -111,3 +113,42 @@ def seam(one: Indices, other: Indices, *, closed: bool = False) -> tuple[Indices
     else:
         place = np.floor(np.linspace(0.0, len(few) - 1.0, len(many)) + 0.5).astype(np.int64)
     return few[place], many
+
+
+def stitches(
+    net: Net, one: tuple[str, Side | Corner], other: tuple[str, Side | Corner]
+) -> tuple[Indices, Indices]:
+    """Pair the knots of two edges of panels, each the name of a panel and an edge of it, for a seam.
+
+    Knots are paired in the direction, and on edges that close round from the knot, in which the edges lie nearest to
+    each other. Returns the knots that stay, those of the first edge unless the second has fewer, and those that go.
+    ValueError when one edge closes round and the other does not.
+    """
+    panels = {panel.name: panel for panel in net.panels}
+    rounds = [panels[name].closed and side in ("top", "bottom") for name, side in (one, other)]
+    if rounds[0] != rounds[1]:
+        raise ValueError(f"{one[0]}.{one[1]} and {other[0]}.{other[1]}: one closes round, the other does not")
+    first, second = (_once(panels[name].edge(cast(Side, side))) for name, side in (one, other))
+    x = net.positions
+    tries = []
+    for way in (second, second[::-1]):
+        turned = way
+        if rounds[0]:
+            start = int(np.argmin(np.linalg.norm(x[way[:-1]] - x[first[0]], axis=1)))
+            turned = np.append(np.roll(way[:-1], -start), way[start])
+        pair = seam(first, turned, closed=rounds[0])
+        tries.append((float(np.sum((x[pair[0]] - x[pair[1]]) ** 2)), pair))
+    # Of two that lie as near, the edges as they run.
+    return tries[1][1] if tries[1][0] < (1.0 - 1e-9) * tries[0][0] else tries[0][1]
+
+
+def _once(knots: Indices) -> Indices:
+    """Knots along an edge, those that have become one only once; the last of a closed edge stays its first."""
+    return np.asarray(knots[np.concatenate([[True], np.diff(knots) != 0])])
+
+
+def sewn(net: Net, one: tuple[str, Side | Corner], other: tuple[str, Side | Corner]) -> Net:
+    """Return the net with two edges of panels, each the name of a panel and an edge of it, joined knot by knot."""
+    stays, goes = stitches(net, one, other)
+    apart = stays != goes
+    return joined(net, stays[apart], goes[apart])

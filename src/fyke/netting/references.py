@@ -15,6 +15,7 @@ Indices = NDArray[np.int64]
 
 # "NAME.EDGE[k]", of netting, and "NAME:k", of what is a row of knots.
 ON_EDGE = re.compile(r"(.*)\.(\w+)\[(\d{1,9})\]", re.ASCII)
+IN_NETTING = re.compile(r"(\d{1,9})-(\d{1,9})", re.ASCII)
 IN_ROW = re.compile(r"(.*):(\d{1,9})", re.ASCII)
 
 
@@ -26,6 +27,16 @@ def knot_at(net: Net, text: str) -> int | None:
     """
     if text in net.labels:
         return net.labels.index(text)
+    name, _, label = text.rpartition(":")
+    of_netting = IN_NETTING.fullmatch(label)
+    if of_netting:
+        # A label that it has lost to another knot, in a seam.
+        column_row = int(of_netting[1]), int(of_netting[2])
+        for panel in net.panels:
+            there = panel.knots[(panel.lattice.knots == column_row).all(axis=1)]
+            if panel.name == name and len(there):
+                return int(there[0])
+        return None
     edge, row = ON_EDGE.fullmatch(text), IN_ROW.fullmatch(text)
     if edge:
         knots, place = row_of(net, f"{edge[1]}.{edge[2]}"), int(edge[3])

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import Taper
 from .hexagon import Hexagon
-from .joining import joined, seam, with_shared_bars
+from .joining import joined, seam, sewn, with_shared_bars
 from .lattice import Edge
 from .net import Net
 from .sheet import Netting, sheet
@@ -98,6 +99,69 @@ def cage(
     whole = together([wall, floor])
     above, below = whole.panels
     return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))
+
+
+def bag(
+    netting: Netting,
+    meshes: tuple[int, int],
+    *,
+    panels: int,
+    cuts: str,
+    diameters: tuple[float, float],
+    height: float,
+    top: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "bag",
+) -> Net:
+    """Lay a tapered bag, a piece of a trawl: equal trapezoids side by side on a frustum, joined along their cut sides.
+
+    meshes: of one panel, along its wide end and along the height; panels: how many, two to four by custom; cuts: of
+    every side, from the wide end to the narrow one, see netting.cutting; diameters: m, of the lower and the upper rim,
+    the wider of which is the wide end; height: m; top: m, centre of the upper rim. Panels are called NAME 1, NAME 2 ...
+    in the order in which they go round. ValueError for fewer than two panels and for cuts that do not fit.
+    """
+    if panels < 2:
+        raise ValueError("a bag has two panels or more")
+    low, high = diameters
+    taper = Taper(cuts, cuts, "bottom" if low <= high else "top")
+    slant = float(np.hypot(0.5 * (high - low), height))
+    mesh = netting.mesh if isinstance(netting.mesh, str) else "hexagonal"
+
+    def piece(number: int) -> Net:
+        def surface(steps: Array, intervals: Array) -> Array:
+            at = steps + 0.5 * intervals
+            left, right = (
+                np.interp(at[:, 1], *_by_row(path))
+                for path in taper.paths(mesh, (round(intervals[0]), round(intervals[1])))
+            )
+            width = right - left
+            along = np.divide(at[:, 0] - left, width, out=np.full_like(width, 0.5), where=width > 0.0)
+            angle, up = 2.0 * np.pi / panels * (number + along), steps[:, 1] / intervals[1] + 0.5
+            radius = 0.5 * (low + (high - low) * up)
+            places = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), height * (up - 1.0)])
+            return np.asarray(places + np.array(top))
+
+        return sheet(
+            netting,
+            meshes,
+            surface,
+            shape="trapezoid",
+            size=(np.pi * max(diameters) / panels, slant),
+            taper=taper,
+            fixed=fixed,
+            name=f"{name} {number + 1}",
+        )
+
+    net = together([piece(number) for number in range(panels)])
+    for number in range(panels):
+        net = sewn(net, (f"{name} {number + 1}", "right"), (f"{name} {(number + 1) % panels + 1}", "left"))
+    return net
+
+
+def _by_row(path: NDArray[np.int64]) -> tuple[Array, Array]:
+    """Rows (r,) along a cut side, and its mean column in each."""
+    rows, which = np.unique(path[:, 1], return_inverse=True)
+    return rows.astype(float), np.bincount(which, path[:, 0]) / np.bincount(which)
 
 
 def box(

@@ -16,6 +16,7 @@ from ..netting.net import Net
 from ..solve.result import Result
 from . import style
 from .bars import legend_rows, name_marks
+from .carried import carried
 from .plane import frame, plane_axes
 from .shapes import draw_arrow
 from .ticks import number
@@ -40,6 +41,7 @@ def sections(
     The cut stands upright through the middle of the netting as built, along the current (3,) m/s, else along the waves
     (3,), else along x. From above there are rows of knots, named by the height at which they were built.
     """
+    result = carried(result)
     net = result.net
     closed = [which for which, panel in enumerate(net.panels) if panel.closed]
     if not closed:

@@ -27,6 +27,7 @@ from .bars import (
     tension_bar,
     tension_scale,
 )
+from .carried import brought_back, carried
 from .parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
 from .plane import size_of
 from .space import View, box, draw_space, far_to_near, seen_extent
@@ -48,6 +49,7 @@ def initial_position(
 
     current: (3,) m/s, and waves: (3,) direction in which they go, each shown as an arrow when given.
     """
+    result = brought_back(result)
     net = result.net
     speed = 0.0 if current is None else float(np.linalg.norm(current))
     flows = (
@@ -88,7 +90,7 @@ def equilibrium_shape(result: Result) -> Figure:
     shown = result.tension[-1][coloured_bars(result.net)]
     below = NUMBERS + (COLOUR_BAR if np.any(shown > 0.0) else 0.0)
     legend = _legend(result.net, slack_name(shown), style.SINGLE_COLUMN)
-    figure, ax = _page(result, above=legend, below=below)
+    figure, ax = _page(carried(result), above=legend, below=below)
     draw_shape(ax, result)
     return figure
 
@@ -96,6 +98,7 @@ def equilibrium_shape(result: Result) -> Figure:
 @style.styled
 def draw_shape(ax: Axes, result: Result) -> None:
     """Draw the last frame in space, with axes, colour bar and names, into the rectangle of plain axes as it is now."""
+    result = carried(result)
     net, tension = result.net, result.tension[-1]
     shown = tension[coloured_bars(net)]
     taut, scale = bool(np.any(shown > 0.0)), tension_scale(shown)

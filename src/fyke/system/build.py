@@ -23,6 +23,7 @@ from ..water.waves import Waves
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
+from .moves import motion_of
 from .rigging import rigged
 from .system import Displaced, System
 
@@ -53,7 +54,7 @@ def build_system(net: Net, case: Case) -> System:
         surface=True,
         bed=case.bed.ground(water.depth) if case.bed and water.depth else None,
     )
-    return replace(system, case_text=case.text)
+    return replace(system, case_text=case.text, motion=motion_of(net, case))
 
 
 def _waves(case: Case) -> Waves | None:

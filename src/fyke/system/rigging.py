@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
+from ..netting.joining import sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.references import knot_at, row_of
@@ -36,11 +37,13 @@ def rigged(netting: Net | None, case: Case) -> Net:
 
 
 def _roped(net: Net | None, case: Case) -> Net | None:
-    """Return the netting of a case with its ropes."""
+    """Return the netting of a case with its seams, then its ropes."""
+    if net is None:
+        return None
     twines = case.twines
+    for seam in case.seams:
+        net = sewn(net, *(cast("tuple[str, Side | Corner]", one.rpartition(".")[::2]) for one in seam.join))
     for rope in case.ropes:
-        if net is None:
-            break
         panel, side = _edge(net, rope.along)
         net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
     return net

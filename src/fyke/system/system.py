@@ -69,9 +69,9 @@ class System:
     case_text: str = ""
 
     def resting(self) -> System:
-        """Return the system as statics takes it: no waves, friction from where the net was laid."""
+        """Return the system as statics takes it: no waves, no motion, friction from where the net was laid."""
         bed = self.bed and replace(self.bed, laid=self.net.positions[:, :2])
-        return replace(self, waves=None, bed=bed)
+        return replace(self, waves=None, motion=None, bed=bed)
 
     def at_rest(self) -> State:
         """Return the state that the net was built in, at time 0, at rest but for held knots that move."""
