@@ -241,7 +241,7 @@ def beside_netting_and_twine(key, lines):
     return lines
 
 
-def test_every_commented_line_of_the_template_can_be_used(tmp_path):
+def test_every_commented_line_of_the_template_can_be_used(tmp_path):  # noqa: C901
     (tmp_path / "measured.csv").write_text("knot,x,y,z\n")
     (tmp_path / "current.csv").write_text("time,u,v,w\n10800,0.5,0,0\n21600,0.6,0,0\n")
     # What else a commented line needs, and what it stands instead of.
@@ -281,7 +281,9 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')
             needed = [one for one in size if not one.startswith(f"{key} =")]
             shown = [*lines[:waves], "[waves]", *needed, line[2:], *lines[after:]]
-        if key in ("bars", "knots"):
+        if lines[number - 1].startswith("# [grouping]"):
+            shown[number - 1] = "[grouping]"
+        elif key in ("bars", "knots"):
             (tmp_path / "drag.csv").write_text("reynolds,normal,tangential\n10,2,0.1\n1000,1,0.1\n")
             before = max(i for i, old in enumerate(lines[:number]) if old.startswith(f"{key} ="))
             shown[before] = ""

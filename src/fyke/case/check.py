@@ -16,6 +16,7 @@ from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, has_bottom, reference
+from .grouping import grouping_findings
 from .keys import nearest
 from .line_check import line_findings
 from .lines import ChainSpec, LaidSpec
@@ -165,6 +166,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from gear_findings(parts, water)
     yield from line_findings(parts, water)
     yield from _bed(parts, water)
+    yield from grouping_findings(parts)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)

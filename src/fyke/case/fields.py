@@ -32,7 +32,7 @@ _HANGING = Quantity(RATIO, 0.0, 2.0, open_below=True)
 _BELOW_ONE = (
     "a number E1 above 0 and below 1 for diamond mesh, or [E1, E2], each above 0 and at most 2; or in %"
 )
-_MOST_MESHES = 2000
+_MOST_MESHES = 20_000
 _NAME = re.compile(r"[\w .-]{0,60}")
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
+from ..netting.multiples import LEAST_AROUND
 from ..netting.references import IN_ROW
 from .bodies_check import body_findings
 from .box import BoxSpec
@@ -18,7 +19,7 @@ from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .rows import in_row_findings, rows_of
 from .seams_check import joined_names, seam_findings
-from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
+from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
 from .tapered_check import cutting
 from .written import written

@@ -11,6 +11,7 @@ from ..netting.joining import stitches
 from ..netting.lattice import Corner, Side, hanging_ratios
 from ..netting.together import together
 from .gear import LARGEST_STRAIN
+from .grouping import rounded
 from .motion_check import motion_oddities
 from .schema import Case
 from .water_check import current_oddities
@@ -32,6 +33,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
         *motion_oddities(case),
     )
@@ -119,6 +121,12 @@ def _seams(case: Case) -> Iterator[str]:
         one, other = (cast("tuple[str, Side | Corner]", edge.rpartition(".")[::2]) for edge in seam.join)
         both = [owner[name] for name in dict.fromkeys((one[0], other[0]))]
         pieces = [piece for k, piece in enumerate(both) if piece not in both[:k]]
+        groups = {piece.group for piece in pieces}
+        if len(groups) > 1:
+            yield (
+                f"Seam '{seam.name}' joins netting whose groups differ, {' and '.join(map(str, sorted(groups)))}: the "
+                "finer meshes are gathered at the knots of the coarser; give both the same group."
+            )
         net = together(
             [
                 piece.lay(case.netting[piece.netting], case.twines[case.netting[piece.netting].twine])

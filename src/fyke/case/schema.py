@@ -17,6 +17,7 @@ from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .grouping import GroupingSpec, choose_groups
 from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
 from .load_case import LoadCaseSpec
 from .motion import MotionSpec
@@ -167,6 +168,7 @@ class Case(Table):
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
         description="panels, shapes, ropes, lines, sinkers and floats, one [[gear]] each"
     )
+    grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
     motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
@@ -196,6 +198,11 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        made = [(one, self.netting[one.netting]) for one in self.pieces if one.netting in self.netting]
+        for (piece, _), group in zip(
+            made, choose_groups(made, self.grouping.knots if self.grouping else None), strict=True
+        ):
+            piece.gather(group)
         for motion in self.motion:
             motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")

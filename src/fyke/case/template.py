@@ -75,6 +75,10 @@ knot_diameter = "3.5 mm"             # leave out for knotless netting
 # orientation = "T0"                 # of hexagons: long bars along the height (T0) or the width (T90)
 # knot_density = 1140.0              # kg/m3, the twine's by default
 # segments = 2                       # straight pieces of every bar, so that it can bow; 1 by default
+# group = 4                          # one mesh is laid for 4 x 4; 1 by default; also in one [[gear]] of netting alone
+
+# [grouping]                         # instead of group: as fine as so many knots of all netting together allow
+# knots = 5000
 
 [[gear]]                             # one for every part
 kind = "panel"

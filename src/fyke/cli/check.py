@@ -58,10 +58,12 @@ def check_case(file: Path, *, json: bool) -> int:
 def judge(case: Case) -> dict[str, Any]:
     """Return what the case would build, ready for JSON.
 
-    mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each sheet of netting, lengths in m, areas
-    in m2, mass_per_area in kg/m2, rtex in tex; strain: largest as built, negative where all bars are slack; rims:
-    diameters (m) of the lower and the upper rim of netting that closes round, None of a flat panel; ends: meshes along
-    the upper and the lower edge of one that is cut to shape, else None;
+    real_knots, real_bars: of the real netting, twine_length: of all its bars (m), group: the most real meshes that
+    one stands for along an axis; laid: meshes of a panel as it is laid. mass: in air (kg); weight_in_water: N,
+    positive sinks; panels: one table each sheet of netting, lengths in m, areas in m2, mass_per_area in kg/m2, rtex
+    in tex; strain: largest as built, negative where all bars are slack; rims: diameters (m) of the lower and the
+    upper rim of netting that closes round, None of a flat panel; ends: meshes along the upper and the lower edge of one
+    that is cut to shape, else None;
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
@@ -164,7 +166,8 @@ def _panel(
         "shape": panel.shape,
         "netting": next(name for name, spec in case.netting.items() if spec is netting),
         "mesh": netting.mesh_name,
-        "meshes": list(panel.meshes),
+        "meshes": list(panel.real_meshes),
+        "laid": list(panel.meshes),
         "ends": [len(panel.edge(end)) - 1 for end in ("top", "bottom")] if panel.taper else None,
         "segments": netting.segments,
         "size": list(panel.size),
@@ -194,8 +197,9 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
             )
             for one in findings["motion"]
         ),
-        ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
-        ("bars", f"{findings['bars']}"),
+        ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}" + _real(findings, "real_knots")),
+        ("bars", f"{findings['bars']}" + _real(findings, "real_bars")),
+        ("length of bars", quantity(findings["twine_length"], "m")),
         ("drag", _words(findings["drag"])),
         *([("shelter", _words(findings["shelter"]))] if findings["shelter"] else []),
         ("mass in air", quantity(findings["mass"], "kg")),
@@ -216,16 +220,27 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         console.print("Nothing looks odd.")
 
 
+def _real(findings: dict[str, Any], key: str) -> str:
+    return f", for {findings[key]} real ones" if findings["group"] > 1.0 else ""
+
+
 def _words(laws: dict[str, str]) -> str:
     return ", ".join(f"{what}: {law}" for what, law in laws.items())
 
 
 def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
+    across, down = panel["meshes"]
+    few, rows = panel["laid"]
     width, height = panel["size"]
     e1, e2 = panel["hanging_ratios"]
     state = "taut" if panel["strain"] > 0.0 else "slack"
     return [
         ("meshes", f"{_meshes(panel)}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
+        *(
+            [("laid with", f"{few} x {rows} = {few * rows}, one for {across / few:.4g} x {down / rows:.4g}")]
+            if [few, rows] != [across, down]
+            else []
+        ),
         *([("bars", f"in {panel['segments']} segments each")] if panel["segments"] > 1 else []),
         *_outline(panel, width, height),
         ("hanging ratios", f"E1 = {e1:.4f}, E2 = {e2:.4f}"),

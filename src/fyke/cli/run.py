@@ -299,6 +299,16 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [
         ("outcome", f"{figures['outcome']}: {figures['message']}"),
         ("knots, bars", f"{figures['knots']}, {figures['bars']}"),
+        *(
+            [
+                (
+                    "for real ones",
+                    f"{figures['real_knots']}, {figures['real_bars']}; tensions are of one real bar",
+                )
+            ]
+            if figures["group"] > 1.0
+            else []
+        ),
         ("largest tension", quantity(figures["max_tension"], "N") + where),
         ("slack bars", f"{figures['slack_bars']} of {figures['bars']}"),
         ("drag, lift", f"{quantity(figures['drag'], 'N')}, {quantity(figures['lift'], 'N')}"),

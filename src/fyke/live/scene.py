@@ -9,9 +9,9 @@ import numpy as np
 import viser
 from numpy.typing import ArrayLike, NDArray
 
-from ..report.carried import parts_in_time
+from ..report.carried import carried
 from ..report.colours import GREY, PALETTE, linear
-from ..report.parts import Bars, Knots, Outline, coloured_bars
+from ..report.parts import Bars, Knots, Outline, coloured_bars, parts_of
 from ..report.quantities import BarQuantity, quantities
 from ..report.space import AZIMUTH, ELEVATION
 from ..report.style import rgb
@@ -99,7 +99,7 @@ class Scene:
         colours = COLOURS[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]
         colours[slack] = SLACK
         with self.client.atomic():
-            for number, part in enumerate(parts_in_time(result)):
+            for number, part in enumerate(parts_of(carried(result).net)):
                 name = f"{number} {part.name}"
                 if isinstance(part, Outline):
                     points = part.points.astype(np.float32)

@@ -15,12 +15,13 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
+def joined(net: Net, stays: ArrayLike, goes: ArrayLike, shared: ArrayLike = 1.0) -> Net:
     """Return the net in which every knot of `goes` has become the knot of `stays` at the same place of the list.
 
-    stays, goes: (k,) knots of the net. Bars, panels, ropes and bodies of a knot that goes are those of the one that
-    stays, which keeps its place and takes the larger diameter; it is held when one of the two was. ValueError when the
-    lists differ in length or a knot goes to two places.
+    stays, goes: (k,) knots of the net; shared: (k,) or one for all, how many real knots become one with others in
+    each pair: of grouped netting as many as Panel.real_along says of the edge. Bars, panels, ropes and bodies of a
+    knot that goes are those of the one that stays, which keeps its place and takes the larger diameter; it is held
+    when one of the two was. ValueError when the lists differ in length or a knot goes to two places.
     """
     keep, leave = np.asarray(stays, dtype=np.int64), np.asarray(goes, dtype=np.int64)
     if len(keep) != len(leave):
@@ -39,6 +40,9 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
     fixed, thick = np.zeros(len(left), dtype=bool), np.zeros(len(left))
     np.logical_or.at(fixed, place, net.fixed)
     np.maximum.at(thick, place, net.knot_diameter)
+    many = np.zeros(len(left))
+    np.add.at(many, place, net.knot_multiple)
+    np.subtract.at(many, place[leave], np.broadcast_to(np.asarray(shared, dtype=float), leave.shape))
     load = np.zeros((len(left), 3))
     np.add.at(load, place, net.load)
     return replace(
@@ -50,6 +54,7 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
         knot_diameter=thick,
         knot_density=net.knot_density[left],
         load=load,
+        knot_multiple=many,
         panels=tuple(replace(one, knots=place[one.knots]) for one in net.panels),
         ropes=tuple(replace(one, knots=place[one.knots]) for one in net.ropes),
         bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),
@@ -79,6 +84,10 @@ def with_shared_bars(net: Net) -> Net:
     stays = (ties == 0) | (ties > loose)
     place, number = np.cumsum(stays) - 1, np.cumsum(~np.isin(np.arange(net.bar_count), gone)) - 1
     left = np.setdiff1d(np.arange(net.bar_count), gone)
+    # Of the real bars that two stand for along the seam, one is shared.
+    many = net.bar_multiple.copy()
+    alike = np.bincount(which)
+    many[every[first]] = (np.bincount(which, net.bar_multiple[every[:, 0]]) - (alike - 1))[:, None]
     rows = np.split(number[own], np.cumsum([len(chain) for chain in chains])[:-1])
     return replace(
         net,
@@ -91,6 +100,8 @@ def with_shared_bars(net: Net) -> Net:
         knot_diameter=net.knot_diameter[stays],
         knot_density=net.knot_density[stays],
         load=net.load[stays],
+        bar_multiple=many[left],
+        knot_multiple=net.knot_multiple[stays],
         panels=tuple(
             replace(one, knots=place[one.knots], bars=bars)
             for one, bars in zip(net.panels, rows, strict=True)
@@ -151,4 +162,8 @@ def sewn(net: Net, one: tuple[str, Side | Corner], other: tuple[str, Side | Corn
     """Return the net with two edges of panels, each the name of a panel and an edge of it, joined knot by knot."""
     stays, goes = stitches(net, one, other)
     apart = stays != goes
-    return joined(net, stays[apart], goes[apart])
+    # Every real knot of the edge that goes becomes one with another.
+    panels, real = {panel.name: panel for panel in net.panels}, np.ones(net.knot_count)
+    for name, side in (one, other):
+        real[panels[name].edge(side)] = panels[name].real_along(side)
+    return joined(net, stays[apart], goes[apart], real[goes[apart]])

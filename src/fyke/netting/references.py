@@ -22,29 +22,42 @@ IN_ROW = re.compile(r"(.*):(\d{1,9})", re.ASCII)
 def knot_at(net: Net, text: str) -> int | None:
     """Return the knot that a text names, None where there is none.
 
-    "NAME:label" is a knot by its label; "NAME.EDGE[k]" the k-th along an edge of netting, from left or from below;
-    "NAME:k" the k-th of a rope, ring or line, counted from 0.
+    "NAME:label" is a knot by its label, which it may have lost to another knot in a seam; "NAME.EDGE[k]" the k-th along
+    an edge of netting, from left or from below; "NAME:k" the k-th of a rope, ring or line, counted from 0. Labels and
+    places are those of the real netting: of grouped netting it is the knot nearest to that one.
     """
-    if text in net.labels:
-        return net.labels.index(text)
-    name, _, label = text.rpartition(":")
-    of_netting = IN_NETTING.fullmatch(label)
-    if of_netting:
-        # A label that it has lost to another knot, in a seam.
-        column_row = int(of_netting[1]), int(of_netting[2])
-        for panel in net.panels:
-            there = panel.knots[(panel.lattice.knots == column_row).all(axis=1)]
-            if panel.name == name and len(there):
-                return int(there[0])
-        return None
     edge, row = ON_EDGE.fullmatch(text), IN_ROW.fullmatch(text)
     if edge:
-        knots, place = row_of(net, f"{edge[1]}.{edge[2]}"), int(edge[3])
+        name = f"{edge[1]}.{edge[2]}"
+        knots, place = row_of(net, name), round(int(edge[3]) / real_step(net, name))
     elif row:
         knots, place = next((rope.knots for rope in net.ropes if rope.name == row[1]), None), int(row[2])
     else:
-        return None
+        return _of_netting(net, text)
     return int(knots[place]) if knots is not None and place < len(knots) else None
+
+
+def _of_netting(net: Net, text: str) -> int | None:
+    name, _, label = text.rpartition(":")
+    column_row = IN_NETTING.fullmatch(label)
+    panel = next((panel for panel in net.panels if panel.name == name), None)
+    if column_row is None or panel is None:
+        return net.labels.index(text) if text in net.labels else None
+    i, j = int(column_row[1]), int(column_row[2])
+    if panel.grouped_from:
+        away = panel.flat - panel.real_place(i, j)
+        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
+    there = panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)]
+    return int(there[0]) if len(there) else None
+
+
+def real_step(net: Net, text: str) -> float:
+    """Return for how many real meshes along it one mesh stands of an edge of netting, 1 for ropes and lines."""
+    name, _, side = text.rpartition(".")
+    for panel in net.panels:
+        if panel.name == name and row_of(net, text) is not None:
+            return float(panel.group[0 if side in ("top", "bottom") else 1])
+    return 1.0
 
 
 def row_of(net: Net, text: str) -> Indices | None:

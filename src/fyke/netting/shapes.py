@@ -98,7 +98,8 @@ def cage(
     )
     whole = together([wall, floor])
     above, below = whole.panels
-    return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))
+    rims = seam(above.edge("bottom"), below.edge("top"), closed=True)
+    return joined(whole, *rims, above.real_along("bottom")[:-1])
 
 
 def bag(
@@ -180,11 +181,15 @@ def box(
     sides; top: m, middle of the upper rim; fixed: which knots are held. The walls are one panel, NAME, that goes round
     from the corner at +x -y by +x +y; its corners are corner1 to corner4 in this order. The bottom is NAME bottom, i
     along x and j against y; along the seam it has the knots and the bars of the walls. ValueError for a bottom of
-    hexagons, whose edges do not match those of the walls.
+    hexagons, whose edges do not match those of the walls, and for a group that does not divide the meshes of the sides.
     """
     if bottom and isinstance(netting.mesh, Hexagon):
         raise ValueError("a bottom of hexagonal netting does not match its walls: leave it out")
     nx, ny, nz = meshes
+    if nx % netting.group or ny % netting.group:
+        raise ValueError(
+            f"a group of {netting.group} does not divide the {nx} and {ny} meshes between corners"
+        )
     lx, ly, lz = size
     folds = np.cumsum([0, ny, nx, ny, nx])
     corners = 0.5 * np.array([(lx, -ly), (lx, ly), (-lx, ly), (-lx, -ly), (lx, -ly)])
@@ -226,4 +231,4 @@ def box(
     wall, flat = whole.panels
     right, near, left, far = (flat.edge(side) for side in ("right", "bottom", "left", "top"))
     round_it = np.concatenate([right[:0:-1], near[:0:-1], left[:-1], far[:-1]])
-    return with_shared_bars(joined(whole, wall.edge("bottom")[:-1], round_it))
+    return with_shared_bars(joined(whole, wall.edge("bottom")[:-1], round_it, wall.real_along("bottom")[:-1]))

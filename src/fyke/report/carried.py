@@ -24,13 +24,13 @@ def way(result: Result) -> Array:
     return np.asarray((result.position[:, fixed] - result.net.positions[fixed]).mean(axis=1))
 
 
-def carried(result: Result) -> Result:
-    """Return the result with the net as built where its held knots have taken it in the last frame."""
-    net, last = result.net, result.position[-1]
-    if np.array_equal(last[net.fixed], net.positions[net.fixed]):
+def carried(result: Result, index: int = -1) -> Result:
+    """Return the result with the net as built where its held knots have taken it in one frame, the last by default."""
+    net, shape = result.net, result.position[index]
+    if np.array_equal(shape[net.fixed], net.positions[net.fixed]):
         return result
-    positions = net.positions + way(result)[-1]
-    positions[net.fixed] = last[net.fixed]
+    positions = net.positions + way(result)[index]
+    positions[net.fixed] = shape[net.fixed]
     return replace(result, net=replace(net, positions=positions))
 
 

@@ -138,7 +138,7 @@ def _loads(system: System, frame: Frame) -> _Loads:
     bodies = [_on_bodies(one, system.water.density, wet, push, rest, displaced) for one in net.bodies]
     for one, force in zip(net.bodies, bodies, strict=True):
         np.subtract.at(own, one.knots, force)
-    return _Loads(on_bars, own, bodies, frame.tension[:, None] * t)
+    return _Loads(on_bars, own, bodies, (net.bar_multiple * frame.tension)[:, None] * t)
 
 
 def _on_bodies(one: Bodies, density: float, wet: Array, push: Array, rest: Array, displaced: Array) -> Array:
@@ -199,8 +199,8 @@ def _weights(system: System) -> tuple[Array, Array]:
     net, w = system.net, system.water
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
-    ball = np.pi / 6.0 * net.knot_diameter**3
-    bars = w.gravity * (density - w.density) * area * net.rest_length
+    ball = net.knot_multiple * np.pi / 6.0 * net.knot_diameter**3
+    bars = w.gravity * (density - w.density) * area * net.bar_multiple * net.rest_length
     return bars, w.gravity * (net.knot_density - w.density) * ball
 
 

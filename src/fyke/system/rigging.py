@@ -14,7 +14,7 @@ from ..case.schema import Case
 from ..netting.joining import sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
-from ..netting.references import knot_at, row_of
+from ..netting.references import knot_at, real_step, row_of
 from ..netting.rigging import evenly, with_bodies, with_rope
 from .lines import with_lines
 
@@ -65,17 +65,18 @@ def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:
     if np.all(row == row[0]):
         return row[:1]  # the tip of a cone
     closed = bool(row[0] == row[-1])
-    return evenly(row, bodies.count or len(row) - closed, closed=closed)
+    # As many as hang on the real edge, each at the nearest knot that there is.
+    real = round((len(row) - 1) * real_step(net, bodies.along)) + (not closed)
+    return evenly(row, bodies.count or real, closed=closed, real=real)
 
 
 def _labelled(net: Net, bodies: BodiesSpec, case: Case) -> Iterator[int]:
     """Yield the knots of their labels, one in every line where moorings are named."""
     moorings = {part.name: part.names(part.name) for part in case.lines if isinstance(part, MooringsSpec)}
-    number = {label: knot for knot, label in enumerate(net.labels)}
     for label in bodies.at or ():
         name, _, place = label.rpartition(":")
         for one in [f"{line}:{place}" for line in moorings.get(name, ())] or [label]:
-            knot = number[one] if one in number else knot_at(net, one)
+            knot = knot_at(net, one)
             if knot is None:
                 raise ValueError(f"{bodies.called} hang at {one}, which is not there")
             yield knot

@@ -24,7 +24,7 @@ class State:
     """Time (s), position (n, 3) m, velocity (n, 3) m/s.
 
     tension: (m,) N where a method knows it better than the elastic law does from positions that it does not resolve to
-    the nanometre; None to take the law.
+    the nanometre, of all real bars that a bar stands for together; None to take the law.
     """
 
     time: float

@@ -133,11 +133,17 @@ def panel_rows(result: Result, panel: Panel) -> list[Row]:
     twine = next(t for t in net.twines if t.name == panel.twine)
     tension = result.tension[-1][np.unique(panel.bars)]
     knots = np.unique(panel.knots)
-    across, down = panel.meshes
+    across, down = panel.real_meshes
+    few, rows = panel.meshes
     e1, e2 = measures.hanging_ratios
     material = f"{twine.material}, " if twine.material else ""
     return [
         ("Netting", f"{panel.mesh}, {across} × {down} meshes", None),
+        *(
+            [("Laid with", f"{few} × {rows}, one for {across / few:.4g} × {down / rows:.4g}", None)]
+            if panel.grouped_from
+            else []
+        ),
         (
             "Frame" if panel.shape == "panel" else f"{panel.shape.capitalize()}, laid flat",
             f"{panel.size[0]:.4g} m × {panel.size[1]:.4g} m",
