@@ -176,7 +176,8 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     block = [lines[i][2:] for i in parts]
     block[:10] = [line for line in block[:10] if not line.startswith(left_out)]
     case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
-    assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
+    kinds = ["panel", "cylinder", "rope", "collar", "ring", "ring", "sinkers", "floats"]
+    assert [part.kind for part in case.gear] == kinds
 
 
 def lines_of_the_template(lines):

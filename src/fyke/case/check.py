@@ -26,12 +26,14 @@ from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
 from .seams import SeamSpec
+from .tube_check import tube_findings
+from .tubes import TubeSpec, TubularSpec
 from .twine import MaterialSpec, TableSpec, TwineSpec
-from .water_check import current_file_problems, current_findings, sea_bed_findings
+from .water_check import bed_findings, current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"seam", "rope", "line", "moorings", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"seam", "rope", "ring", "collar", "line", "moorings", "sinkers", "floats"}  # not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -46,6 +48,7 @@ class Parts:
     raw: dict[str, Any]
     materials: dict[str, Material]
     twines: dict[str, TwineSpec]
+    tubes: dict[str, TubeSpec]
     nettings: dict[str, NettingSpec]
     chains: dict[str, ChainSpec]
     gear: dict[int, Part]
@@ -64,6 +67,7 @@ class Parts:
             raw,
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
+            _named(TubeSpec, raw, "tube"),
             _named(NettingSpec, raw, "netting"),
             _named(ChainSpec, raw, "chain"),
             {i: part for i, part in parts.items() if part is not None},
@@ -95,6 +99,11 @@ class Parts:
     def lines(self) -> dict[int, LaidSpec]:
         """Gear that is lines and moorings, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, LaidSpec)}
+
+    @property
+    def tubulars(self) -> dict[int, TubularSpec]:
+        """Gear that is made of tubes, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, TubularSpec)}
 
     @property
     def bodies(self) -> dict[int, BodiesSpec]:
@@ -162,17 +171,19 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
+    yield from tube_findings(parts)
     water = _valid(Water, parts.raw.get("water", {}))
     yield from gear_findings(parts, water)
     yield from line_findings(parts, water)
-    yield from _bed(parts, water)
+    yield from bed_findings(parts, water)
     yield from grouping_findings(parts)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)
     yield from _solidities(parts)
     yield from added_mass_findings(parts.raw)
-    yield from _waves(parts)
+    if water is not None and "waves" in parts.raw:
+        yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
     yield from _load_cases(parts)
@@ -346,12 +357,6 @@ def _stepper(parts: Parts) -> Iterator[Finding]:
         )
 
 
-def _bed(parts: Parts, water: Water | None) -> Iterator[Finding]:
-    if "bed" in parts.raw and water is not None and water.depth is None:
-        allowed = "a depth in [water] beside [bed]: the bed lies that far below still water"
-        yield ("water", "depth"), "nothing", allowed, "add depth = 20.0 to [water]"
-
-
 def _compare(parts: Parts) -> Iterator[Finding]:
     compare = _valid(Compare, parts.raw.get("compare"))
     if compare is None:
@@ -386,12 +391,6 @@ def _solidities(parts: Parts) -> Iterator[Finding]:
         allowed = f'one solidity for the law "{drag.bars.law}" of all bars'
         cure = f'write bars = {{ law = "{drag.bars.law}", solidity = {min(found)} }} with the one that counts'
         yield ("drag", "bars"), told, allowed, cure
-
-
-def _waves(parts: Parts) -> Iterator[Finding]:
-    water = _valid(Water, parts.raw.get("water", {}))
-    if water is not None and "waves" in parts.raw:
-        yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
 
 
 def _load_cases(parts: Parts) -> Iterator[Finding]:

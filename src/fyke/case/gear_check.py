@@ -22,6 +22,8 @@ from .seams_check import joined_names, seam_findings
 from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
 from .tapered_check import cutting
+from .tube_check import tubular_findings
+from .tubes import TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -29,6 +31,7 @@ if TYPE_CHECKING:
     from .schema import Water
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
+_ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
 _FLAT = ("panel", "trapezoid", "triangle")
 
 
@@ -47,7 +50,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     """Everything that is wrong between the keys and parts of the gear; water: None where it is wrong itself."""
     yield from _names(parts)
     for index, keys in parts.gear_tables():
-        for table in ("netting", "twine"):
+        for table in ("netting", "twine", "tube"):
             there = [name for name, _ in parts.items(table)]
             there += [name for name, _ in parts.items("chain") if table == "twine"]
             yield from reference(("gear", index, table), keys, table, there)
@@ -66,10 +69,13 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
         if isinstance(piece, RoundSpec):
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
-    sheets = sheets_of(parts)
+    sheets = sheets_by_name(parts)
     yield from seam_findings(parts, sheets)
     for index, rope in parts.ropes.items():
         yield from _rope(("gear", index), rope, parts, sheets)
+    for index, part in parts.tubulars.items():
+        yield from tubular_findings(("gear", index), part, parts.name_of(index))
+        yield from _way(("gear", index), part, parts, sheets)
     for index, bodies in parts.bodies.items():
         yield from body_findings(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
@@ -103,7 +109,8 @@ def has_bottom(keys: dict[str, Any]) -> bool:
 
 
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
-    if parts.is_static and keys.get("fixed") == "none" and not _hangs(path, parts):
+    anchored = any(other.get("kind") in _ANCHORED for _, other in parts.gear_tables())
+    if parts.is_static and keys.get("fixed") == "none" and not anchored and not _hangs(path, parts):
         panel = keys.get("kind") in _FLAT
         allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
         hold = "edges" if panel else "top"
@@ -244,7 +251,7 @@ def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec)
     return (*path, key), found, allowed, cure
 
 
-def sheets_of(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
+def sheets_by_name(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     """The sheets of netting of all pieces that are good by themselves, by name."""
     out = {}
     for index, piece in parts.pieces.items():
@@ -256,7 +263,7 @@ def sheets_of(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     return cast(dict[str, tuple[Sheet, NettingSpec]], out)
 
 
-def along_edge(
+def edge_named(
     path: Path, what: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding | tuple[int, float]]:
     """Either what is wrong with an edge that is named, or how many knots it has and its length (m)."""
@@ -289,19 +296,13 @@ def _rope(
     path: Path, rope: RopeSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
     called = f"rope '{parts.name_of(cast(int, path[1]))}'"
-    for one in along_edge(path, called, rope.along, parts, sheets):
+    for one in edge_named(path, called, rope.along, parts, sheets):
         if len(one) == 4:
             yield one
             continue
         count, built = one
         if count == 1:
-            allowed = "an edge of several knots"
-            yield (
-                (*path, "along"),
-                f"{written(rope.along)} of {called}, one knot",
-                allowed,
-                "name another edge",
-            )
+            yield _one_knot(path, called, rope.along)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -313,6 +314,25 @@ def _rope(
                 allowed,
                 "make it longer, or leave length out for that of the edge",
             )
+
+
+def _way(
+    path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    """What is wrong with the edge that a ring or a collar follows, if it follows one."""
+    if part.along is None:
+        return
+    called = f"{part.kind} '{parts.name_of(cast(int, path[1]))}'"
+    for one in edge_named(path, called, part.along, parts, sheets):
+        if len(one) == 4:
+            yield one
+        elif one[0] == 1:
+            yield _one_knot(path, called, part.along)
+
+
+def _one_knot(path: Path, called: str, along: str) -> Finding:
+    found = f"{written(along)} of {called}, one knot"
+    return (*path, "along"), found, "an edge of several knots", "name another edge"
 
 
 def _hung(
@@ -327,7 +347,7 @@ def _hung(
         return
     if bodies.along is not None:
         last = rows_of(parts, sheets).get(bodies.along)
-        row = along_edge(path, called, bodies.along, parts, sheets) if last is None else ((last + 1, 0.0),)
+        row = edge_named(path, called, bodies.along, parts, sheets) if last is None else ((last + 1, 0.0),)
         for one in row:
             if len(one) == 4:
                 yield one

@@ -12,7 +12,7 @@ from ..netting.lines import length_for
 from ..netting.net import Net
 from ..netting.references import ON_EDGE, around, knot_at, row_of
 from .gear import LARGEST_STRAIN
-from .gear_check import knot_findings, reference, sheets_of
+from .gear_check import knot_findings, reference, sheets_by_name
 from .keys import nearest
 from .lines import LaidSpec, LineSpec, MooringsSpec
 from .places import Path
@@ -36,7 +36,7 @@ def line_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             allowed = "a name of its own among twines and chains, which lines name alike"
             yield ("chain", name), f"{written(name)}, which is also a twine", allowed, "choose another name"
     there = twines + [name for name, _ in parts.items("chain")]
-    sheets, waiting = sheets_of(parts), dict[int, set[str]]()
+    sheets, waiting = sheets_by_name(parts), dict[int, set[str]]()
     rows = rows_of(parts, sheets)
     for index, keys in parts.gear_tables():
         for number, piece in enumerate(_pieces(keys)):

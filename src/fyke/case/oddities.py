@@ -99,8 +99,11 @@ def _unused(case: Case) -> Iterator[str]:
     for what in ("twine", "chain"):
         for name in sorted(getattr(case, what).keys() - spun):
             yield f"{what.capitalize()} '{name}' is not used by any netting{also}."
-    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
-        yield f"Material '{name}' is not used by any twine."
+    for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
+        yield f"Tube '{name}' is not used by any ring or collar."
+    made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
+    for name in sorted(case.material.keys() - made):
+        yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 
 def _no_effect(case: Case) -> Iterator[str]:

@@ -10,6 +10,8 @@ from .gear import NettingSpec, Sheet
 from .keys import nearest
 from .lines import LaidSpec, MooringsSpec
 from .places import Path
+from .rigging import RopeSpec
+from .tubes import RingSpec, TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -24,8 +26,11 @@ def rows_of(parts: Parts, sheets: Sheets) -> dict[str, int]:
     Moorings are there as "NAME 1", "NAME 2" ..., and as NAME for all of them.
     """
     rows = {}
-    for index, rope in parts.ropes.items():
-        name, _, side = rope.along.rpartition(".")
+    along: dict[int, RopeSpec | TubularSpec] = {**parts.ropes, **parts.tubulars}
+    for index, rope in along.items():
+        if isinstance(rope, RingSpec) and rope.free and rope.knots is not None:
+            rows[parts.name_of(index)] = rope.knots
+        name, _, side = (rope.along or "").rpartition(".")
         sheet, netting = sheets.get(name, (None, None))
         if sheet is not None and netting is not None and side in sheet.edges:
             rows[parts.name_of(index)] = sheet.edge(side, netting.mesh)[0] - (not sheet.closed)

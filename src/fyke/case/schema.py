@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
+from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .bed import BedSpec
@@ -27,6 +28,7 @@ from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
+from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -107,6 +109,8 @@ Gear = Annotated[
     | RopeSpec
     | LineSpec
     | MooringsSpec
+    | RingSpec
+    | CollarSpec
     | SinkersSpec
     | FloatsSpec,
     Field(discriminator="kind"),
@@ -165,8 +169,11 @@ class Case(Table):
     netting: Annotated[dict[Name, NettingSpec], BeforeValidator(_named_tables("netting"))] = Field(
         default={}, description="nettings by name"
     )
+    tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
+        default={}, description="tubes by name"
+    )
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, lines, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, lines, sinkers and floats, one [[gear]] each"
     )
     grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
     motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
@@ -239,6 +246,12 @@ class Case(Table):
         return {name: spec.twine(name) for name, spec in specs.items()}
 
     @property
+    def tubes(self) -> dict[str, Tube]:
+        """The tubes of rings and collars, by name."""
+        own = {name: spec.material(name) for name, spec in self.material.items()}
+        return {name: spec.tube(own) for name, spec in self.tube.items()}
+
+    @property
     def folder(self) -> Path:
         """The folder that file names count from: of the case file, the present one for a text."""
         return self._path.parent if self._path else Path()
@@ -262,6 +275,11 @@ class Case(Table):
     def lines(self) -> tuple[LaidSpec, ...]:
         """The gear that is lines free of netting, and moorings."""
         return tuple(part for part in self.gear if isinstance(part, LaidSpec))
+
+    @property
+    def tubulars(self) -> tuple[TubularSpec, ...]:
+        """The gear that is made of tubes."""
+        return tuple(part for part in self.gear if isinstance(part, TubularSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:

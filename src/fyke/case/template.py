@@ -110,6 +110,34 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "main"
 # along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
 # length = "2.5 m"                   # unloaded, that of the edge by default
+# [tube.pipe]                        # of rings and collars
+# material = "HDPE"                  # HDPE, steel or your own: density, modulus, yield stress where you give none
+# diameter = "315 mm"                # outer
+# wall = "17.9 mm"
+# contents = "air"                   # air | water
+# density = 958.0                    # kg/m3, of the wall
+# youngs_modulus = "900 MPa"
+# mass_per_length = "18 kg/m"        # with what is fitted to it; that of the wall by default
+# yield_stress = "26 MPa"            # which the largest stress is compared with
+# [[gear]]
+# kind = "collar"                    # floats, and sets the edge free
+# name = "collar"
+# tube = "pipe"
+# tubes = 2                          # side by side
+# rigid = false                      # true: it keeps its shape
+# along = "cage.top"
+# [[gear]]
+# kind = "ring"                      # such as a sinker tube
+# name = "sinker tube"
+# tube = "pipe"
+# along = "cage.bottom"
+# [[gear]]
+# kind = "ring"                      # of its own, its knots "hoop:0", "hoop:1" ...
+# name = "hoop"
+# tube = "pipe"
+# diameter = "25 m"
+# centre = [0.0, 0.0, -15.0]
+# knots = 48
 # [[gear]]
 # kind = "sinkers"
 # name = "weights"

@@ -17,7 +17,7 @@ from .written import written
 
 if TYPE_CHECKING:
     from .check import Finding, Parts
-    from .schema import Case
+    from .schema import Case, Water
 
 # Of a time, so that a run to the very end of a file is not refused for a rounding.
 ROUNDING = 1e-9
@@ -57,6 +57,13 @@ def sea_bed_findings(parts: Parts) -> Iterator[Finding]:
             key = "centre" if "centre" in type(piece).model_fields else "top"
             cure = f"raise its {key}, or check [water] depth"
             yield ("gear", index, key), found, f"gear above the sea bed at z = {-bed:g} m", cure
+
+
+def bed_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
+    """A sea bed lies at a depth."""
+    if "bed" in parts.raw and water is not None and water.depth is None:
+        allowed = "a depth in [water] beside [bed]: the bed lies that far below still water"
+        yield ("water", "depth"), "nothing", allowed, "add depth = 20.0 to [water]"
 
 
 def current_oddities(case: Case) -> Iterator[str]:

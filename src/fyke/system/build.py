@@ -25,7 +25,7 @@ from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
 from .motion import Motion, Move
 from .moves import motion_of
-from .rigging import rigged
+from .rigging import free_rings, rigged
 from .system import Displaced, System
 
 Array = NDArray[np.float64]
@@ -36,11 +36,11 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: its netting as the file has it, then ropes, lines, floats and sinkers."""
+    """Make the net of a case: its netting and rings of their own as the file has them, then the rest."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
-    nets = [piece.lay(netting, twines[netting.twine]) for piece, netting in made]
-    return rigged(together(nets) if nets else None, case)
+    laid = [piece.lay(netting, twines[netting.twine]) for piece, netting in made] + free_rings(case)
+    return rigged(together(laid) if laid else None, case)
 
 
 def build_system(net: Net, case: Case) -> System:

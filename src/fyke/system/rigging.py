@@ -1,4 +1,4 @@
-"""Ropes and lines, floats and sinkers of a case on its netting."""
+"""Ropes, rings, collars and lines, floats and sinkers of a case on its netting."""
 
 from __future__ import annotations
 
@@ -11,20 +11,22 @@ from numpy.typing import NDArray
 from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
+from ..case.tubes import CollarSpec, RingSpec
 from ..netting.joining import sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.references import knot_at, real_step, row_of
 from ..netting.rigging import evenly, with_bodies, with_rope
+from ..netting.tubes import ring, with_tubes
 from .lines import with_lines
 
 Indices = NDArray[np.int64]
 
 
 def rigged(netting: Net | None, case: Case) -> Net:
-    """Return the netting of a case, if any, with its ropes, then its lines, then its floats and sinkers.
+    """Return the netting of a case, if any, with its ropes, rings and collars, lines, then floats and sinkers.
 
-    ValueError for a case without netting and lines, which a checked case has.
+    ValueError for a case without netting, rings and lines, which a checked case has.
     """
     net = with_lines(_roped(netting, case), case)
     if net is None:
@@ -37,16 +39,41 @@ def rigged(netting: Net | None, case: Case) -> Net:
 
 
 def _roped(net: Net | None, case: Case) -> Net | None:
-    """Return the netting of a case with its seams, then its ropes."""
+    """Return the netting of a case with its seams, then its ropes, rings and collars."""
     if net is None:
         return None
-    twines = case.twines
+    twines, tubes = case.twines, case.tubes
     for seam in case.seams:
         net = sewn(net, *(cast("tuple[str, Side | Corner]", one.rpartition(".")[::2]) for one in seam.join))
     for rope in case.ropes:
         panel, side = _edge(net, rope.along)
         net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
+    for part in case.tubulars:
+        if part.along is not None:
+            panel, side = _edge(net, part.along)
+            twine = part.made(tubes).twine(part.tube)
+            free = isinstance(part, CollarSpec)
+            net = with_tubes(
+                net, panel.edge(side), twine, tubes=part.tubes, name=part.name, kind=part.kind, free=free
+            )
     return net
+
+
+def free_rings(case: Case) -> list[Net]:
+    """Return the rings of a case that follow no edge, as nets of their own."""
+    tubes = case.tubes
+    return [
+        ring(
+            part.made(tubes).twine(part.tube),
+            diameter=part.diameter,
+            knots=part.knots,
+            tubes=part.tubes,
+            centre=part.centre,
+            name=part.name,
+        )
+        for part in case.tubulars
+        if isinstance(part, RingSpec) and part.diameter and part.knots and part.centre
+    ]
 
 
 def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
