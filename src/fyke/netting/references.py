@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import re
-from typing import cast, get_args
+from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .lattice import Corner, Side
+from .named import edges_of, knot_labelled
 from .net import Net
 
 Indices = NDArray[np.int64]
 
 # "NAME.EDGE[k]", of netting, and "NAME:k", of what is a row of knots.
 ON_EDGE = re.compile(r"(.*)\.(\w+)\[(\d{1,9})\]", re.ASCII)
-IN_NETTING = re.compile(r"(\d{1,9})-(\d{1,9})", re.ASCII)
 IN_ROW = re.compile(r"(.*):(\d{1,9})", re.ASCII)
 
 
@@ -33,22 +33,8 @@ def knot_at(net: Net, text: str) -> int | None:
     elif row:
         knots, place = next((rope.knots for rope in net.ropes if rope.name == row[1]), None), int(row[2])
     else:
-        return _of_netting(net, text)
+        return knot_labelled(net, text)
     return int(knots[place]) if knots is not None and place < len(knots) else None
-
-
-def _of_netting(net: Net, text: str) -> int | None:
-    name, _, label = text.rpartition(":")
-    column_row = IN_NETTING.fullmatch(label)
-    panel = next((panel for panel in net.panels if panel.name == name), None)
-    if column_row is None or panel is None:
-        return net.labels.index(text) if text in net.labels else None
-    i, j = int(column_row[1]), int(column_row[2])
-    if panel.grouped_from:
-        away = panel.flat - panel.real_place(i, j)
-        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
-    there = panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)]
-    return int(there[0]) if len(there) else None
 
 
 def real_step(net: Net, text: str) -> float:
@@ -64,7 +50,7 @@ def row_of(net: Net, text: str) -> Indices | None:
     """Return the knots in a row that a text names, "NAME.EDGE" of netting or the name of a rope, ring or line."""
     name, _, side = text.rpartition(".")
     for panel in net.panels:
-        if panel.name == name and side in (*get_args(Side), *get_args(Corner)):
+        if panel.name == name and side in edges_of(panel):
             return panel.edge(cast("Side | Corner", side))
     return next((rope.knots for rope in net.ropes if rope.name == text), None)
 

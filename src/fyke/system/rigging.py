@@ -94,7 +94,8 @@ def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:
     closed = bool(row[0] == row[-1])
     # As many as hang on the real edge, each at the nearest knot that there is.
     real = round((len(row) - 1) * real_step(net, bodies.along)) + (not closed)
-    return evenly(row, bodies.count or real, closed=closed, real=real)
+    length = float(np.linalg.norm(np.diff(net.positions[row], axis=0), axis=1).sum())
+    return evenly(row, min(bodies.many(real, length, closed=closed), real), closed=closed, real=real)
 
 
 def _labelled(net: Net, bodies: BodiesSpec, case: Case) -> Iterator[int]:
