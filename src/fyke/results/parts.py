@@ -317,7 +317,7 @@ def part_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
     if used:
         most = max(used, key=lambda part: float(part["utilisation"]))
         where = f"{most['kind']} {most['name']}".rstrip()
-        rows.append(("largest use of breaking strength", f"{100.0 * most['utilisation']:.3g} %, {where}"))
+        rows.append(("largest use of strength", f"{100.0 * most['utilisation']:.3g} %, {where}"))
     return rows
 
 
