@@ -333,7 +333,7 @@ SPOILT = {
         WHOLE.replace('kind = "rope"', 'kind = "ropes"'),
         ("[[gear]] 2 kind", '"ropes"', '"panel" or "trapezoid"', 'did you mean "rope"?'),
     ),
-    "a kind that is not there": (
+    "a kind to choose": (
         WHOLE.replace('kind = "rope"', 'kind = "buoy"'),
         ("[[gear]] 2 kind", '"buoy"', '"sinkers"', "choose"),
     ),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import hypot
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from ..netting.twine import MATERIALS, PACKING, Material, diameter_of
+from ..netting.twine import LEAD, MATERIALS, PACKING, Material, diameter_of
 from .added_mass import added_mass_file_problems, added_mass_findings
 from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
@@ -260,9 +261,15 @@ def _thickness_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
 def _fibre(path: Path, twine: TwineSpec) -> Iterator[Finding]:
     """What is wrong with a twine that is said to hold more fibre than there is room for."""
     density, diameter = twine.resolved_density, twine.given_diameter
+    if twine.lead and diameter is not None and diameter <= diameter_of(twine.lead, LEAD, 1.0):
+        least = diameter_of(twine.lead, LEAD, 1.0)
+        found = f"{twine.lead * 1e3:g} g/m of lead in a diameter of {diameter * 1e3:g} mm"
+        allowed = f"above {least * 1e3:.4g} mm, which the lead alone fills"
+        yield (*path, "lead"), found, allowed, "check the units of lead and diameter"
+        return
     if density is None or diameter is None or twine.rtex is None:
         return
-    solid = diameter_of(twine.rtex, density, 1.0)
+    solid = hypot(diameter_of(twine.rtex, density, 1.0), diameter_of(twine.lead or 0.0, LEAD, 1.0))
     if solid > diameter * (1.0 + 1e-9):
         found = f"{twine.rtex * 1e6:g} tex in a diameter of {diameter * 1e3:g} mm"
         allowed = f"at least {solid * 1e3:.4g} mm, which fibre of {density:g} kg/m3 fills without pores"

@@ -314,6 +314,12 @@ def _rope(
             )
 
 
+def _round_edge(along: str, sheets: Mapping[str, tuple[Sheet, NettingSpec]]) -> bool:
+    """Whether an edge, one that is there, goes round."""
+    name, _, side = along.rpartition(".")
+    return sheets[name][0].closed and side in ("top", "bottom")
+
+
 def _way(
     path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
@@ -347,11 +353,20 @@ def _hung(
         for one in edge_named(path, called, bodies.along, parts, sheets):
             if len(one) == 4:
                 yield one
-            elif bodies.count is not None and bodies.count > one[0]:
-                found = f"{bodies.count} of {called} along {written(bodies.along)}"
+            elif bodies.many(*one, closed=_round_edge(bodies.along, sheets)) > one[0]:
+                many = bodies.many(*one, closed=_round_edge(bodies.along, sheets))
+                found = f"{many} of {called} along {written(bodies.along)}"
                 allowed = f"at most the {one[0]} knots of this edge"
                 cure = "put fewer and heavier ones there, or leave count out for one at every knot"
-                yield (*path, "count"), found, allowed, cure
+                yield (*path, "spacing" if bodies.spacing else "count"), found, allowed, cure
+    if bodies.spacing is not None and (bodies.at is not None or bodies.count is not None):
+        other = "at" if bodies.at is not None else "count"
+        yield (
+            (*path, "spacing"),
+            f"spacing beside {other} in {called}",
+            "one of the two",
+            f"leave {other} or spacing out",
+        )
     if bodies.at is None:
         return
     if bodies.count is not None:

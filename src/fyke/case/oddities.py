@@ -42,7 +42,7 @@ def warnings(case: Case) -> tuple[str, ...]:
 def _floating(case: Case) -> Iterator[str]:
     water = case.water.density
     for name, twine in case.twine.items():
-        density = twine.resolved_density or 0.0
+        density = twine.mean_density or 0.0
         if density < water:
             yield (f"Twine '{name}' floats: {density:g} kg/m3 is below the water's {water:g} kg/m3.")
     for name, netting in case.netting.items():

@@ -211,6 +211,12 @@ def _sources(net: Net, c: Coefficients, damping: Array, waves: Waves | None) -> 
         *_wave_sources(waves),
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
         *(
+            f"bending of '{t.name}': EI = {t.bending_stiffness:.4g} N m2, discrete elastic rods (M. Bergou et al., ACM "
+            "Trans. Graph. 27(3), 63, 2008, not opened; derived here and checked)"
+            for t in net.twines
+            if t.bending_stiffness > 0.0
+        ),
+        *(
             f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
             for i, t in enumerate(net.twines)
         ),

@@ -12,6 +12,7 @@ from ..case.schema import Case
 from ..case.tubes import CollarSpec, RingSpec
 from ..netting.joining import sewn
 from ..netting.lattice import Corner, Side
+from ..netting.named import knot_labelled
 from ..netting.net import Net, Panel
 from ..netting.rigging import evenly, with_bodies, with_rope
 from ..netting.tubes import ring, with_tubes
@@ -65,24 +66,10 @@ def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
     return next(panel for panel in net.panels if panel.name == name), cast("Side | Corner", side)
 
 
-def _labelled(net: Net, label: str) -> int:
-    """Return the knot of a label "NAME:i-j", which it may have lost to another knot in a seam.
-
-    Of grouped netting it is the one nearest to this knot of the real netting.
-    """
-    name, _, place = label.rpartition(":")
-    panel = next(panel for panel in net.panels if panel.name == name)
-    i, j = map(int, place.split("-"))
-    if panel.grouped_from:
-        away = panel.flat - panel.real_place(i, j)
-        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
-    return int(panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)][0])
-
-
 def _places(net: Net, bodies: BodiesSpec) -> Indices:
     """Return the knots at which floats or sinkers are."""
     if bodies.along is None:
-        return np.array([_labelled(net, label) for label in bodies.at or ()], dtype=np.int64)
+        return np.array([knot_labelled(net, label) for label in bodies.at or ()], dtype=np.int64)
     panel, side = _edge(net, bodies.along)
     knots = panel.edge(side)
     if np.all(knots == knots[0]):
@@ -91,4 +78,5 @@ def _places(net: Net, bodies: BodiesSpec) -> Indices:
     closed = panel.closed and axis == 0
     # As many as hang on the real edge, each at the nearest knot that there is.
     real = round((len(knots) - 1) * panel.group[axis]) + (not closed)
-    return evenly(knots, bodies.count or real, closed=closed, real=real)
+    length = float(np.linalg.norm(np.diff(net.positions[knots], axis=0), axis=1).sum())
+    return evenly(knots, min(bodies.many(real, length, closed=closed), real), closed=closed, real=real)
