@@ -181,7 +181,7 @@ PART_COLUMNS = (
     "Weight in water (N)",
     "Force on supports (N)",
     "Largest tension (N)",
-    "Of breaking strength",
+    "Of strength",
     "Slack bars",
 )
 
