@@ -20,6 +20,7 @@ from ..results import (
     audit,
     compare,
     flow_direction,
+    line_figures,
     load,
     load_figures,
     mean_current,
@@ -27,17 +28,22 @@ from ..results import (
     out_of_range,
     part_figures,
     probes_of,
+    rings_told,
     save,
     save_checkpoint,
     summary,
     water_figures,
+    write_lines,
     write_loads,
     write_parts,
     write_probes,
+    write_rings,
     write_summary,
     write_tables,
 )
+from ..results.lines import line_words
 from ..results.parts import part_words
+from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
@@ -45,8 +51,21 @@ from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
+from ..system.hanging import hanging
 from ..system.system import State, System
-from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
+from .folder import (
+    BARS,
+    CHECKPOINT,
+    KNOTS,
+    PARTS,
+    RESULT,
+    RINGS,
+    SUMMARY,
+    WAVES,
+    claim,
+    make_sure_of_room,
+    stopped,
+)
 from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
 from .progress import progress_bar
 from .show import (
@@ -167,6 +186,9 @@ def _solve_and_write(
     with timed("writing"):
         write_tables(result, folder)
         write_parts(figures["parts"], folder)
+        if "lines" in figures:
+            write_lines(figures["lines"], folder)
+        write_rings(figures.get("rings", []), folder)
         write_summary(figures, folder)
         if probes is not None:
             write_probes(probes, folder)
@@ -246,9 +268,14 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
+    figures |= line_figures(system, result)
+    figures |= rings_told(system, result)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
-    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
+    held = hanging(system, static=case.solve.kind == "static")
+    figures["warnings"] = list(
+        dict.fromkeys([*case.warnings, *held, *result.outcome.warnings, *outside.warnings])
+    )
     figures["out_of_range"] = outside.counts
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
@@ -277,7 +304,7 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, PARTS, *([WAVES] if (folder / WAVES).is_file() else [])])
+    tables = ", ".join([KNOTS, BARS, PARTS, *(one for one in (RINGS, WAVES) if (folder / one).is_file())])
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -293,6 +320,16 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [
         ("outcome", f"{figures['outcome']}: {figures['message']}"),
         ("knots, bars", f"{figures['knots']}, {figures['bars']}"),
+        *(
+            [
+                (
+                    "for real ones",
+                    f"{figures['real_knots']}, {figures['real_bars']}; tensions are of one real bar",
+                )
+            ]
+            if figures["group"] > 1.0
+            else []
+        ),
         ("largest tension", quantity(figures["max_tension"], "N") + where),
         ("slack bars", f"{figures['slack_bars']} of {figures['bars']}"),
         ("drag, lift", f"{quantity(figures['drag'], 'N')}, {quantity(figures['lift'], 'N')}"),
@@ -301,6 +338,8 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *water_words(figures),
         *part_words(figures),
+        *line_words(figures),
+        *ring_words(figures),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
@@ -345,6 +384,8 @@ def _account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         }
         if energy["inertia_work"]:
             taken["inertia of the water"] = energy["inertia_work"]
+        if energy["support_work"]:
+            taken["moved supports"] = energy["support_work"]
         if energy["parts_work"]:
             taken["bending and bed"] = energy["parts_work"]
         given = {

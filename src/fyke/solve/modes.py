@@ -12,7 +12,7 @@ further runs across the modes already found look for what was missed, until noth
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -27,6 +27,7 @@ from ..forces.inertia import mass_matrices
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import System
+from .engines import falling
 from .equilibrium import ROUNDING
 from .linear import Pattern, Solve, factorizer
 
@@ -39,6 +40,8 @@ DENSE = 150
 SAME = 1e-8
 # Squares of frequencies so many times below the rounding of the stiffness are no rounding: the net leaves by itself.
 NOISE = 100.0
+# Stiffness, over the largest, that counts as none.
+NEUTRAL = 1e-12
 UNSTABLE = "this equilibrium is not stable: a tube buckles, or something turns over, when it is touched"
 
 
@@ -80,25 +83,10 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     """
     x = np.ascontiguousarray(position, dtype=float)
     _check(system, x, count)
-    n, still = system.net.knot_count, np.zeros_like(x)
-    around = Surroundings(replace(system, waves=None))
-    el, _ = around.at(x, still, 0.0)
-    # About the net's middle, coordinates are smallest and so is their rounding.
-    x = x - x.mean(axis=0)
-    t, length, along, across = _bar_stiffness(x, el)
-    loose = _loose(el, el.two_way | (across > 0.0))
-    # A loose knot hangs on slack bars only: holding it changes nothing else.
-    free = el.free.copy()
-    free[loose] = 0.0
-    el = el._replace(free=free)
-    pattern = Pattern.of(el, around.groups)
-    data = _stiffness_data(t, along, across, el, pattern)
-    # In still water: parts and buoyancy alone.
-    around.assemble(x, still, 1.0, 0.0, pattern.groups, symmetric=True, data=data)
-    places = pattern.start, pattern.stride, pattern.diagonal
-    around.add_wetting(x, still, el, t, length, places, pattern.groups, symmetric=True, data=data)
+    n = system.net.knot_count
+    el, pattern, data, loose = _stiffness(system, x)
     stiffness = pattern.matrix(data)
-    mass = _mass_matrix(x, el, pattern)
+    mass = _mass_matrix(x - x.mean(axis=0), el, pattern)
     size = stiffness.shape[0]
     count = min(count, size)
     # Rounding of K in units of omega^2. Shifted by that much, K has an inverse however little the bars pull.
@@ -118,6 +106,45 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     shape = np.zeros((count, n, 3))
     shape[:, pattern.free] = vectors.reshape(count, len(pattern.free), 3)
     return Modes(np.sqrt(np.where(square > shift, square, 0.0)), _scaled(shape), loose)
+
+
+def stability_warnings(system: System, position: Array) -> tuple[str, ...]:
+    """One sentence where an equilibrium at position (n, 3) m of a net with tubes is not stable under loads that stay.
+
+    None where nothing can push, and where no solver at hand counts the directions in which a matrix has no stiffness.
+    """
+    if not system.elements.two_way.any():
+        return ()
+    _, pattern, data, _ = _stiffness(system, position)
+    begin, stride = pattern.diagonal[pattern.free].T
+    own = begin + np.arange(3)[:, None] * (stride + 1)
+    # What has no stiffness at all is none of the matter, as a ring that may turn.
+    data[own] += NEUTRAL * float(data[own].max(initial=0.0))
+    if not falling(pattern, data):
+        return ()
+    return (f"{UNSTABLE}; begin from a shape that is bent, or let it move in a dynamic case",)
+
+
+def _stiffness(system: System, position: Array) -> tuple[Elements, Pattern, Array, Knots]:
+    """Elements with loose knots held, and the stiffness of the net (N/m) as data of a pattern; the loose knots."""
+    still = np.zeros_like(position)
+    around = Surroundings(system.resting())
+    el, _ = around.at(position, still, 0.0)
+    # About the net's middle, coordinates are smallest and so is their rounding.
+    x = position - position.mean(axis=0)
+    t, length, along, across = _bar_stiffness(x, el)
+    loose = _loose(el, el.two_way | (across > 0.0))
+    # A loose knot hangs on slack bars only: holding it changes nothing else.
+    free = el.free.copy()
+    free[loose] = 0.0
+    el = el._replace(free=free)
+    pattern = Pattern.of(el, around.groups)
+    data = _stiffness_data(t, along, across, el, pattern)
+    # In still water: parts and buoyancy alone.
+    around.assemble(x, still, 1.0, 0.0, pattern.groups, symmetric=True, data=data)
+    places = pattern.start, pattern.stride, pattern.diagonal
+    around.add_wetting(x, still, el, t, length, places, pattern.groups, symmetric=True, data=data)
+    return el, pattern, data, loose
 
 
 def _bar_stiffness(x: Array, el: Elements) -> tuple[Array, Array, Array, Array]:
