@@ -81,6 +81,8 @@ def _net(net: Net, small: Halved, elements: Elements) -> Net:
         knot_diameter=net.knot_diameter[knots],
         knot_density=net.knot_density[knots],
         load=net.load[knots],
+        bar_multiple=net.bar_multiple[bars],
+        knot_multiple=net.knot_multiple[knots],
         panels=tuple(
             replace(one.panel, meshes=one.coarse.meshes, knots=one.knots, bars=one.bars[:, None])
             for one in small.sheets
