@@ -86,8 +86,9 @@ def with_shared_bars(net: Net) -> Net:
     left = np.setdiff1d(np.arange(net.bar_count), gone)
     # Of the real bars that two stand for along the seam, one is shared.
     many = net.bar_multiple.copy()
-    alike = np.bincount(which)
-    many[every[first]] = (np.bincount(which, net.bar_multiple[every[:, 0]]) - (alike - 1))[:, None]
+    bars, once = np.unique(every[:, 0], return_index=True)  # those along the seam of a panel are in it twice
+    alike, summed = np.bincount(which[once]), np.bincount(which[once], net.bar_multiple[bars])
+    many[every[first]] = (summed - (alike - 1))[:, None]
     rows = np.split(number[own], np.cumsum([len(chain) for chain in chains])[:-1])
     return replace(
         net,
