@@ -15,8 +15,11 @@ from fyke.netting.lines import LinePiece, with_line
 from fyke.netting.rigging import with_rope
 from fyke.netting.together import together
 from fyke.netting.tubes import Tube, ring
+from fyke.results.audit import audit
 from fyke.results.derive import summary
+from fyke.solve.equilibrium import Equilibrium
 from fyke.solve.pattern import Pattern
+from fyke.solve.relaxation import relax
 from reference import NO_FORCES, NO_WATER
 
 STIFFNESS, LENGTH, MASS = 3.0, 2.0, 0.7  # N m2, m, kg/m of all beams here
@@ -428,3 +431,32 @@ def test_a_rigid_ring_keeps_its_shape():
         across = np.linalg.norm(x[:12] - x[12:], axis=1)
         bends.append(np.ptp(across) / 4.0)
     assert bends[0] > 1e-2 and bends[1] < 1e-4
+
+
+def test_energy_of_a_swinging_beam_is_in_the_accounts():
+    """Nothing acts but the beam itself: what motion loses is in bending and stretching."""
+    system = cantilever(12)
+    modes = fyke.modes(system, system.net.positions, count=2)
+    start = system.at_rest()
+    start.velocity[:] = 0.05 * modes.shape[0]
+    run = fyke.simulate(
+        system,
+        duration=0.25 * modes.period[0],
+        every=0.005 * modes.period[0],
+        stepper=fyke.Newmark(rtol=0.0, atol=1e-7),
+        start=start,
+    )
+    energy = audit(system, run).energy
+    bending = Bending.of(system.net)
+    stored = bending.energy(run.position[-1]) - bending.energy(run.position[0])
+    assert energy.kinetic < 0.0 and stored > -0.9 * energy.kinetic
+    assert energy.parts_work == pytest.approx(-stored, rel=2e-3)
+    assert abs(energy.remainder) < 5e-3 * stored
+
+
+def test_relaxation_in_time_knows_tubes():
+    """The second way of statics, alone, on a beam that bends far."""
+    system = cantilever(20, load=(0.0, 0.0, -2.0 * STIFFNESS / LENGTH**2))
+    s = Equilibrium(system, system.at_rest(), None)
+    assert relax(s, lambda: s.residual <= max(1e-8, s.floor), 1000, lambda: None) == "there"
+    assert s.x + s.origin == pytest.approx(shape(system), abs=1e-6)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import fyke
 from fyke.case import json_schema, load_case, parse_case, template
 from fyke.netting.elastic import LinearLaw, PowerLaw, TableLaw
 
@@ -169,6 +170,21 @@ def gear_of_the_template(lines):
     return range(first + 1, lines.index("", first))
 
 
+def shapes_of_the_template(lines):
+    """Numbers of the lines that show netting cut to shape, boxes and seams."""
+    first = lines.index("# Netting cut to shape, cages with four walls, and seams:")
+    return range(first + 1, lines.index("", first))
+
+
+def test_the_shapes_of_the_template_can_be_used():
+    lines = template().splitlines()
+    parts = shapes_of_the_template(lines)
+    block = [lines[i][2:] for i in parts]
+    case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
+    assert [part.kind for part in case.gear] == ["panel", "trapezoid", "box", "trapezoid", "seam"]
+    assert fyke.build_net(case).panels[-1].name == "square"
+
+
 @pytest.mark.parametrize("left_out", [("diameter", "height"), ("hanging_ratio",)])
 def test_the_gear_of_the_template_can_be_used(left_out):
     lines = template().splitlines()
@@ -176,7 +192,8 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     block = [lines[i][2:] for i in parts]
     block[:10] = [line for line in block[:10] if not line.startswith(left_out)]
     case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
-    assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
+    kinds = ["panel", "cylinder", "rope", "collar", "ring", "ring", "sinkers", "floats"]
+    assert [part.kind for part in case.gear] == kinds
 
 
 def test_the_motion_of_the_template_can_be_used(tmp_path):
@@ -217,7 +234,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index("", waves),
     )
     moved = lines.index("# [[motion]]")
-    parts = {*gear_of_the_template(lines), *range(moved, lines.index("", moved))}
+    parts = {*gear_of_the_template(lines), *shapes_of_the_template(lines)}
+    parts |= {*range(moved, lines.index("", moved))}
     for number, line in enumerate(lines):
         words = ("The", "A ", "For", "By")
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(words) or number in parts:
@@ -253,10 +271,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [old for old in shown if not old.startswith("velocity")]
             needed = next((i for i, old in enumerate(shown) if old.startswith(f"# {beside.get(key)} =")), 0)
             shown[needed] = shown[needed].removeprefix("# " * bool(needed))
-        if '"power"' in line:
-            shown = [old.replace("# depth =", "depth =") for old in shown]
-        if key == "positions":
-            shown = [old.replace("# [compare]", "[compare]") for old in shown]
+        for opened in ("# depth =",) * ('"power"' in line) + ("# [compare]",) * (key == "positions"):
+            shown = [old.replace(opened, opened[2:]) for old in shown]
         if key in ("duration", "stepper", "rtol", "atol", "max_step", "settle_force", "settle_energy"):
             shown = [old.replace('kind = "static"', 'kind = "dynamic"') for old in shown]
             shown = [old.replace("# duration", "duration") for old in shown]

@@ -333,9 +333,9 @@ SPOILT = {
         WHOLE.replace('kind = "rope"', 'kind = "ropes"'),
         ("[[gear]] 2 kind", '"ropes"', '"panel" or "trapezoid"', 'did you mean "rope"?'),
     ),
-    "a collar": (
-        WHOLE.replace('kind = "rope"', 'kind = "collar"'),
-        ("[[gear]] 2 kind", '"collar"', '"sinkers"', "choose"),
+    "a kind to choose": (
+        WHOLE.replace('kind = "rope"', 'kind = "buoy"'),
+        ("[[gear]] 2 kind", '"buoy"', '"sinkers"', "choose"),
     ),
     "a key of another kind": (
         WHOLE.replace('twine = "line"', 'twine = "line"\nbuoyancy = "3 N"'),
@@ -490,6 +490,8 @@ def test_the_schema_knows_every_kind():
         "cone",
         "frustum",
         "rope",
+        "ring",
+        "collar",
         "sinkers",
         "floats",
     }

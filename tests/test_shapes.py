@@ -650,6 +650,63 @@ def test_a_bag_of_panels_closes(panels, rate):
     assert len(np.unique(np.concatenate([one.edge("bottom") for one in mirror.panels]))) == panels * wide
 
 
+def line_case(*keys, twine='diameter = "10 mm"\nlead = "150 g/m"'):
+    rope = f'[twine.line]\nmaterial = "PES"\n{twine}\n'
+    panel_ = shape("panel", "meshes = [10, 4]", "hanging_ratio = 0.6", 'fixed = "top"').removeprefix(HEAD)
+    foot = '[[gear]]\nkind = "rope"\nname = "foot"\ntwine = "line"\nalong = "a.bottom"\n'
+    return "\n".join([HEAD + rope + panel_ + foot, *keys, ""])
+
+
+@pytest.mark.parametrize(
+    ("twine", "fibre"),
+    [
+        ('diameter = "10 mm"\nlead = "150 g/m"', (np.pi / 4 * 0.01**2 - 0.15 / 11340) * 1380),
+        ('diameter = "10 mm"\nrtex = "50 g/m"\nlead = "150 g/m"', 0.05),
+        ('rtex = "50 g/m"\nlead = "150 g/m"', 0.05),
+    ],
+)
+def test_a_lead_line_weighs_its_fibre_and_its_lead(twine, fibre):
+    """In water of 1000 kg/m3: m g (1 - 1000 / density) of either, on the unloaded length of the rope."""
+    case, plain = (
+        parse_case(line_case(twine=twine)),
+        parse_case(line_case().split('[[gear]]\nkind = "rope"')[0]),
+    )
+    heavy, light = (fyke.build_system(fyke.build_net(one), one).weight_in_water for one in (case, plain))
+    length = 10 * 0.1 * 0.6
+    by_hand = 9.81 * length * (fibre * (1.0 - 1000.0 / 1380.0) + 0.15 * (1.0 - 1000.0 / 11340.0))
+    assert heavy - light == pytest.approx(by_hand, rel=1e-10)
+    assert not any("'line' floats" in one for one in case.warnings)
+    solid = fibre / 1380.0 + 0.15 / 11340.0
+    if "diameter" not in twine:
+        area = np.pi / 4.0 * case.twine["line"].diameter ** 2
+        assert area == pytest.approx(fibre / 1380.0 / 0.65 + 0.15 / 11340.0, rel=1e-12)
+        assert area > solid
+
+
+def floats(*keys):
+    return "\n".join(['[[gear]]\nkind = "floats"\nname = "f"\nbuoyancy = "1 N"\ndensity = 200', *keys])
+
+
+@pytest.mark.parametrize(("spacing", "count"), [(0.06, 11), (0.12, 6), (0.2, 4), (0.5, 2), (2.0, 2)])
+def test_floats_along_a_line_keep_their_spacing(spacing, count):
+    """An edge of 0.6 m: one at either end, and as near to the spacing as whole numbers and knots allow."""
+    case = parse_case(line_case(floats('along = "a.top"', f"spacing = {spacing}")))
+    net = fyke.build_net(case)
+    (bodies,) = net.bodies
+    assert len(bodies.knots) == count
+    assert {net.panels[0].edge("top")[0], net.panels[0].edge("top")[-1]} <= set(bodies.knots.tolist())
+    steps = np.linalg.norm(np.diff(net.positions[bodies.knots], axis=0), axis=1)
+    assert np.ptp(steps) <= 0.06 + 1e-12
+
+
+def test_sinkers_round_a_rim_keep_their_spacing():
+    sinkers = (
+        '[[gear]]\nkind = "sinkers"\nalong = "lower.bottom"\nspacing = 0.2\nweight = 1\ndensity = 7850\n'
+    )
+    net = fyke.build_net(parse_case(seam_case(24, None) + sinkers))
+    assert len(net.bodies[0].knots) == round(24 * 0.3 * np.sin(np.pi / 24) / 0.2)
+
+
 JOINED = four_walls(*ALL_ROUND, *BELOW)
 SPOILT |= {
     "counts that do not match": (
@@ -684,6 +741,22 @@ SPOILT |= {
     "seam of a rim to a side": (
         JOINED + seam_case(24, None).removeprefix(HEAD).replace('"upper.bottom"', '"floor.left"'),
         ("join", "one closes round", "two edges that close round", "join the sides"),
+    ),
+    "floats too near": (
+        line_case(floats('along = "a.top"', "spacing = 0.01")),
+        ("[[gear]] 3 spacing", "61 of floats 'f'", "at most the 11 knots", "fewer"),
+    ),
+    "spacing and count": (
+        line_case(floats('along = "a.top"', "spacing = 0.1", "count = 3")),
+        ("[[gear]] 3 spacing", "spacing beside count", "one of the two", "leave count"),
+    ),
+    "spacing of labels": (
+        line_case(floats('at = ["a:0-0"]', "spacing = 0.1")),
+        ("[[gear]] 3 spacing", "spacing beside at", "one of the two", "leave at"),
+    ),
+    "more lead than rope": (
+        line_case(twine='diameter = "4 mm"\nlead = "150 g/m"'),
+        ("[twine.line] lead", "150 g/m of lead in a diameter of 4 mm", "above 4.104 mm", "units"),
     ),
     "held by no seam": (
         four_walls(*ALL_ROUND),

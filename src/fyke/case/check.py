@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import hypot
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from ..netting.twine import MATERIALS, PACKING, Material, diameter_of
+from ..netting.twine import LEAD, MATERIALS, PACKING, Material, diameter_of
 from .added_mass import added_mass_file_problems, added_mass_findings
 from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
@@ -24,12 +25,14 @@ from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
 from .seams import SeamSpec
+from .tube_check import tube_findings
+from .tubes import TubeSpec, TubularSpec
 from .twine import MaterialSpec, TableSpec, TwineSpec
 from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"seam", "rope", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"seam", "rope", "ring", "collar", "sinkers", "floats"}  # kinds of gear that are not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -44,6 +47,7 @@ class Parts:
     raw: dict[str, Any]
     materials: dict[str, Material]
     twines: dict[str, TwineSpec]
+    tubes: dict[str, TubeSpec]
     nettings: dict[str, NettingSpec]
     gear: dict[int, Part]
     folder: FilePath
@@ -61,6 +65,7 @@ class Parts:
             raw,
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
+            _named(TubeSpec, raw, "tube"),
             _named(NettingSpec, raw, "netting"),
             {i: part for i, part in parts.items() if part is not None},
             folder,
@@ -86,6 +91,11 @@ class Parts:
     def ropes(self) -> dict[int, RopeSpec]:
         """Gear that is ropes, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
+
+    @property
+    def tubulars(self) -> dict[int, TubularSpec]:
+        """Gear that is made of tubes, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, TubularSpec)}
 
     @property
     def bodies(self) -> dict[int, BodiesSpec]:
@@ -153,6 +163,7 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
+    yield from tube_findings(parts)
     yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
     yield from grouping_findings(parts)
     yield from _outputs(parts)
@@ -250,9 +261,15 @@ def _thickness_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
 def _fibre(path: Path, twine: TwineSpec) -> Iterator[Finding]:
     """What is wrong with a twine that is said to hold more fibre than there is room for."""
     density, diameter = twine.resolved_density, twine.given_diameter
+    if twine.lead and diameter is not None and diameter <= diameter_of(twine.lead, LEAD, 1.0):
+        least = diameter_of(twine.lead, LEAD, 1.0)
+        found = f"{twine.lead * 1e3:g} g/m of lead in a diameter of {diameter * 1e3:g} mm"
+        allowed = f"above {least * 1e3:.4g} mm, which the lead alone fills"
+        yield (*path, "lead"), found, allowed, "check the units of lead and diameter"
+        return
     if density is None or diameter is None or twine.rtex is None:
         return
-    solid = diameter_of(twine.rtex, density, 1.0)
+    solid = hypot(diameter_of(twine.rtex, density, 1.0), diameter_of(twine.lead or 0.0, LEAD, 1.0))
     if solid > diameter * (1.0 + 1e-9):
         found = f"{twine.rtex * 1e6:g} tex in a diameter of {diameter * 1e3:g} mm"
         allowed = f"at least {solid * 1e3:.4g} mm, which fibre of {density:g} kg/m3 fills without pores"

@@ -19,6 +19,8 @@ from .seams_check import joined_names, seam_findings
 from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
 from .tapered_check import cutting
+from .tube_check import tubular_findings
+from .tubes import TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ if TYPE_CHECKING:
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
 _LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
+_ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
 _FLAT = ("panel", "trapezoid", "triangle")
 _KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
 
@@ -46,7 +49,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     """Everything that is wrong between the keys and parts of the gear; water: None where it is wrong itself."""
     yield from _names(parts)
     for index, keys in parts.gear_tables():
-        for table in ("netting", "twine"):
+        for table in ("netting", "twine", "tube"):
             there = [name for name, _ in parts.items(table)]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
@@ -64,10 +67,13 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
         if isinstance(piece, RoundSpec):
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
-    sheets = _sheets(parts)
+    sheets = sheets_by_name(parts)
     yield from seam_findings(parts, sheets)
     for index, rope in parts.ropes.items():
         yield from _rope(("gear", index), rope, parts, sheets)
+    for index, part in parts.tubulars.items():
+        yield from tubular_findings(("gear", index), part, parts.name_of(index))
+        yield from _way(("gear", index), part, parts, sheets)
     for index, bodies in parts.bodies.items():
         yield from _bodies(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
@@ -101,7 +107,8 @@ def has_bottom(keys: dict[str, Any]) -> bool:
 
 
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
-    if parts.is_static and keys.get("fixed") == "none" and not _hangs(path, parts):
+    anchored = any(other.get("kind") in _ANCHORED for _, other in parts.gear_tables())
+    if parts.is_static and keys.get("fixed") == "none" and not anchored and not _hangs(path, parts):
         panel = keys.get("kind") in _FLAT
         allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
         hold = "edges" if panel else "top"
@@ -242,7 +249,7 @@ def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec)
     return (*path, key), found, allowed, cure
 
 
-def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
+def sheets_by_name(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     """The sheets of netting of all pieces that are good by themselves, by name."""
     out = {}
     for index, piece in parts.pieces.items():
@@ -254,7 +261,7 @@ def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     return cast(dict[str, tuple[Sheet, NettingSpec]], out)
 
 
-def _along(
+def edge_named(
     path: Path, what: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding | tuple[int, float]]:
     """Either what is wrong with an edge that is named, or how many knots it has and its length (m)."""
@@ -287,19 +294,13 @@ def _rope(
     path: Path, rope: RopeSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
     called = f"rope '{parts.name_of(cast(int, path[1]))}'"
-    for one in _along(path, called, rope.along, parts, sheets):
+    for one in edge_named(path, called, rope.along, parts, sheets):
         if len(one) == 4:
             yield one
             continue
         count, built = one
         if count == 1:
-            allowed = "an edge of several knots"
-            yield (
-                (*path, "along"),
-                f"{written(rope.along)} of {called}, one knot",
-                allowed,
-                "name another edge",
-            )
+            yield _one_knot(path, called, rope.along)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -313,6 +314,31 @@ def _rope(
             )
 
 
+def _round_edge(along: str, sheets: Mapping[str, tuple[Sheet, NettingSpec]]) -> bool:
+    """Whether an edge, one that is there, goes round."""
+    name, _, side = along.rpartition(".")
+    return sheets[name][0].closed and side in ("top", "bottom")
+
+
+def _way(
+    path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    """What is wrong with the edge that a ring or a collar follows, if it follows one."""
+    if part.along is None:
+        return
+    called = f"{part.kind} '{parts.name_of(cast(int, path[1]))}'"
+    for one in edge_named(path, called, part.along, parts, sheets):
+        if len(one) == 4:
+            yield one
+        elif one[0] == 1:
+            yield _one_knot(path, called, part.along)
+
+
+def _one_knot(path: Path, called: str, along: str) -> Finding:
+    found = f"{written(along)} of {called}, one knot"
+    return (*path, "along"), found, "an edge of several knots", "name another edge"
+
+
 def _hung(
     path: Path, bodies: BodiesSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
@@ -324,14 +350,23 @@ def _hung(
         yield (*path, "along"), found, "an edge (along) or labels of knots (at)", cure
         return
     if bodies.along is not None:
-        for one in _along(path, called, bodies.along, parts, sheets):
+        for one in edge_named(path, called, bodies.along, parts, sheets):
             if len(one) == 4:
                 yield one
-            elif bodies.count is not None and bodies.count > one[0]:
-                found = f"{bodies.count} of {called} along {written(bodies.along)}"
+            elif bodies.many(*one, closed=_round_edge(bodies.along, sheets)) > one[0]:
+                many = bodies.many(*one, closed=_round_edge(bodies.along, sheets))
+                found = f"{many} of {called} along {written(bodies.along)}"
                 allowed = f"at most the {one[0]} knots of this edge"
                 cure = "put fewer and heavier ones there, or leave count out for one at every knot"
-                yield (*path, "count"), found, allowed, cure
+                yield (*path, "spacing" if bodies.spacing else "count"), found, allowed, cure
+    if bodies.spacing is not None and (bodies.at is not None or bodies.count is not None):
+        other = "at" if bodies.at is not None else "count"
+        yield (
+            (*path, "spacing"),
+            f"spacing beside {other} in {called}",
+            "one of the two",
+            f"leave {other} or spacing out",
+        )
     if bodies.at is None:
         return
     if bodies.count is not None:

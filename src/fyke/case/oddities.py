@@ -42,7 +42,7 @@ def warnings(case: Case) -> tuple[str, ...]:
 def _floating(case: Case) -> Iterator[str]:
     water = case.water.density
     for name, twine in case.twine.items():
-        density = twine.resolved_density or 0.0
+        density = twine.mean_density or 0.0
         if density < water:
             yield (f"Twine '{name}' floats: {density:g} kg/m3 is below the water's {water:g} kg/m3.")
     for name, netting in case.netting.items():
@@ -95,8 +95,11 @@ def _unused(case: Case) -> Iterator[str]:
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
     for name in sorted(case.twine.keys() - spun):
         yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
-    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
-        yield f"Material '{name}' is not used by any twine."
+    for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
+        yield f"Tube '{name}' is not used by any ring or collar."
+    made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
+    for name in sorted(case.material.keys() - made):
+        yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 
 def _no_effect(case: Case) -> Iterator[str]:

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
+from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
 from .box import BoxSpec
@@ -25,6 +26,7 @@ from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
+from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -103,6 +105,8 @@ Gear = Annotated[
     | BoxSpec
     | SeamSpec
     | RopeSpec
+    | RingSpec
+    | CollarSpec
     | SinkersSpec
     | FloatsSpec,
     Field(discriminator="kind"),
@@ -154,11 +158,14 @@ class Case(Table):
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
+    tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
+        default={}, description="tubes by name"
+    )
     netting: Annotated[
         dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
     ] = Field(description="nettings by name")
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, sinkers and floats, one [[gear]] each"
     )
     grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
     motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
@@ -230,6 +237,12 @@ class Case(Table):
         return {name: spec.twine(name) for name, spec in self.twine.items()}
 
     @property
+    def tubes(self) -> dict[str, Tube]:
+        """The tubes of rings and collars, by name."""
+        own = {name: spec.material(name) for name, spec in self.material.items()}
+        return {name: spec.tube(own) for name, spec in self.tube.items()}
+
+    @property
     def folder(self) -> Path:
         """The folder that file names count from: of the case file, the present one for a text."""
         return self._path.parent if self._path else Path()
@@ -248,6 +261,11 @@ class Case(Table):
     def ropes(self) -> tuple[RopeSpec, ...]:
         """The gear that is ropes."""
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def tubulars(self) -> tuple[TubularSpec, ...]:
+        """The gear that is made of tubes."""
+        return tuple(part for part in self.gear if isinstance(part, TubularSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:

@@ -52,6 +52,7 @@ density = 1140.0                     # kg/m3, of the fibre
 diameter = "1.5 mm"                  # or, instead of it or with it, the mass per length:
 # rtex = "2000 tex"
 # packing = 0.65                     # share of fibre in the cross-section, where rtex makes the diameter
+# lead = "1 g/m"                     # of a lead line, beside its fibre
 youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "linear", youngs_modulus = "1.0 GPa" }
 # law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
@@ -110,11 +111,39 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "main"
 # along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
 # length = "2.5 m"                   # unloaded, that of the edge by default
+# [tube.pipe]                        # of rings and collars
+# material = "HDPE"                  # HDPE, steel or your own: density, modulus, yield stress where you give none
+# diameter = "315 mm"                # outer
+# wall = "17.9 mm"
+# contents = "air"                   # air | water
+# density = 958.0                    # kg/m3, of the wall
+# youngs_modulus = "900 MPa"
+# mass_per_length = "18 kg/m"        # with what is fitted to it; that of the wall by default
+# yield_stress = "26 MPa"            # which the largest stress is compared with
+# [[gear]]
+# kind = "collar"                    # floats, and sets the edge free
+# name = "collar"
+# tube = "pipe"
+# tubes = 2                          # side by side
+# rigid = false                      # true: it keeps its shape
+# along = "cage.top"
+# [[gear]]
+# kind = "ring"                      # such as a sinker tube
+# name = "sinker tube"
+# tube = "pipe"
+# along = "cage.bottom"
+# [[gear]]
+# kind = "ring"                      # of its own, its knots "hoop:0", "hoop:1" ...
+# name = "hoop"
+# tube = "pipe"
+# diameter = "25 m"
+# centre = [0.0, 0.0, -15.0]
+# knots = 48
 # [[gear]]
 # kind = "sinkers"
 # name = "weights"
 # along = "cage.bottom"
-# count = 16                         # evenly along it, one at every knot by default
+# count = 16                         # evenly along it, or spacing = "0.5 m"; one at every knot by default
 # weight = "5 N"                     # of each one in water, with its density; or, instead, mass and diameter
 # density = 7850.0
 # drag = 0.47                        # C_D of each one
@@ -124,6 +153,40 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # at = ["cage:0-0", "cage:8-0"]      # labels of knots; or along, as for sinkers
 # buoyancy = "5 N"                   # lift of each one under water, with its density
 # density = 200.0
+
+# Netting cut to shape, cages with four walls, and seams:
+# [[gear]]
+# kind = "trapezoid"                 # trapezoid | triangle (point = "down" or "up" instead of cut and lower)
+# name = "wing"
+# netting = "main"
+# meshes = [12, 6]                   # along the upper edge, along the height
+# cut = "1N2B"                       # cutting rate of both sides, or ["AN", "1N2B"], left and right
+# lower = 6                          # meshes along the lower edge; one of the two is enough
+# hanging_ratio = 0.6                # or size, width of the wide end and height
+# centre = [0.0, 0.0, -0.5]
+# [[gear]]
+# kind = "box"
+# name = "box"
+# netting = "main"
+# meshes = [8, 8, 6]                 # along x, along y, along the depth
+# size = [0.3, 0.3, 0.2]             # or hanging_ratio
+# bottom = true                      # false leaves it open
+# top = [0.0, 0.0, -0.2]             # m, middle of the upper rim
+# fixed = "top"
+# [[gear]]
+# kind = "trapezoid"
+# name = "square"
+# netting = "main"
+# meshes = [12, 4]
+# lower = 12
+# hanging_ratio = 0.6
+# centre = [0.0, 0.0, -0.26]
+# fixed = "top"
+# [[gear]]
+# kind = "seam"
+# name = "joining"
+# join = ["square.bottom", "wing.top"]
+# take_up = 1.0                      # meshes of the first edge on those of the second, 1.5 or "3:2"; 1 without it
 
 # Held knots that move, in a dynamic case; several [[motion]] of the same knots add up:
 # [[motion]]

@@ -16,12 +16,22 @@ from ..netting.net import Panel
 from ..results.ranges import bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
 from ..system.carriage import seen_from_the_carriage
+from ..system.hanging import hanging
 from ..system.system import System
 from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from ..water.wakes import GivenWake
-from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of, seam_rows, seams_of
+from .check_rigging import (
+    bodies_of,
+    body_rows,
+    rope_rows,
+    ropes_of,
+    seam_rows,
+    seams_of,
+    tube_rows,
+    tubes_of,
+)
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -67,9 +77,9 @@ def judge(case: Case) -> dict[str, Any]:
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    seams: one table each, knots of both edges; ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats
-    and sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N, negative floats) and drag_area (m2)
-    of each one, total_weight of all.
+    seams: one table each, knots of both edges; ropes: the same, lengths in m, stiffness: EA in N; tubes: rings and
+    collars, see tubes_of; bodies: floats and sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N,
+    negative floats) and drag_area (m2) of each one, total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -104,8 +114,9 @@ def judge(case: Case) -> dict[str, Any]:
         ],
         "seams": seams_of(case),
         "ropes": ropes_of(case, system),
+        "tubes": tubes_of(case, system),
         "bodies": bodies_of(case, system),
-        "warnings": [*case.warnings, *outside.warnings],
+        "warnings": [*case.warnings, *hanging(system, static=case.solve.kind == "static"), *outside.warnings],
         "out_of_range": outside.counts,
         "case_sha256": case.sha256,
     }
@@ -213,6 +224,8 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         print_rows(console, f"seam {seam['name']}", seam_rows(seam))
     for rope in findings["ropes"]:
         print_rows(console, f"rope {rope['name']}: twine '{rope['twine']}'", rope_rows(rope))
+    for tube in findings["tubes"]:
+        print_rows(console, f"{tube['kind']} {tube['name']}: tube '{tube['tube']}'", tube_rows(tube))
     for bodies in findings["bodies"]:
         print_rows(console, f"{bodies['kind']} {bodies['name']}", body_rows(bodies))
     print_warnings(console, findings["warnings"])

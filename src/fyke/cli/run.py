@@ -27,6 +27,7 @@ from ..results import (
     out_of_range,
     part_figures,
     probes_of,
+    rings_told,
     save,
     save_checkpoint,
     summary,
@@ -34,10 +35,12 @@ from ..results import (
     write_loads,
     write_parts,
     write_probes,
+    write_rings,
     write_summary,
     write_tables,
 )
 from ..results.parts import part_words
+from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
@@ -45,8 +48,21 @@ from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
+from ..system.hanging import hanging
 from ..system.system import State, System
-from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
+from .folder import (
+    BARS,
+    CHECKPOINT,
+    KNOTS,
+    PARTS,
+    RESULT,
+    RINGS,
+    SUMMARY,
+    WAVES,
+    claim,
+    make_sure_of_room,
+    stopped,
+)
 from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
 from .progress import progress_bar
 from .show import (
@@ -167,6 +183,7 @@ def _solve_and_write(
     with timed("writing"):
         write_tables(result, folder)
         write_parts(figures["parts"], folder)
+        write_rings(figures.get("rings", []), folder)
         write_summary(figures, folder)
         if probes is not None:
             write_probes(probes, folder)
@@ -246,9 +263,13 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
+    figures |= rings_told(system, result)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
-    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
+    held = hanging(system, static=case.solve.kind == "static")
+    figures["warnings"] = list(
+        dict.fromkeys([*case.warnings, *held, *result.outcome.warnings, *outside.warnings])
+    )
     figures["out_of_range"] = outside.counts
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
@@ -277,7 +298,7 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, PARTS, *([WAVES] if (folder / WAVES).is_file() else [])])
+    tables = ", ".join([KNOTS, BARS, PARTS, *(one for one in (RINGS, WAVES) if (folder / one).is_file())])
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -311,6 +332,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *water_words(figures),
         *part_words(figures),
+        *ring_words(figures),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),

@@ -252,6 +252,7 @@ class Stage:
             mesh = self._pv.PolyData(np.array(net.positions), lines=_lines(net.bars[part.bars]))
             thick = float(np.max(net.bar_diameter[part.bars])) / self.metres
             width = part.width * float(np.clip(thick, THINNEST * scale, THICKEST * scale))
+            width = max(width, part.diameter / self.metres)
             options: dict[str, Any] = {"line_width": width, "lighting": False}
             if part.colour is None:
                 mesh.cell_data["colour"] = np.zeros((len(part.bars), 3), dtype=np.uint8)

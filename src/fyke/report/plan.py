@@ -19,13 +19,13 @@ from .bars import (
     draw_knots,
     draw_tension,
     legend_rows,
-    line_width,
     name_marks,
     part_names,
     shown_tensions,
     slack_name,
     tension_bar,
     tension_scale,
+    thickness,
 )
 from .parts import Bars, Knots, parts_of
 from .plane import draw_plane, frame, plane_axes, size_of
@@ -129,7 +129,7 @@ def _draw_netting(ax: Axes, result: Result, plan: _Plan, scale: Normalize, *, na
     for part in parts_of(result.net):
         if isinstance(part, Bars) and part.colour is not None:
             ends = plan.between(result.net.bars[part.bars])
-            thick = part.width * line_width(len(plan.ends))
+            thick = thickness(ax, part, len(plan.ends))
             options = {"linewidths": thick, "zorder": 2.2, "gid": "ropes"}
             if len(ends):
                 draw_bars(ax, plan.points, ends, colors=part.colour, label=part.name, **options)

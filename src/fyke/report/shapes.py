@@ -26,6 +26,7 @@ from .bars import (
     slack_name,
     tension_bar,
     tension_scale,
+    thickness,
 )
 from .carried import brought_back, carried
 from .parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
@@ -68,6 +69,8 @@ def initial_position(
     def plain(points: Array, part: Bars) -> None:
         options = {"gid": "bars"} if part.colour is None else {"gid": "ropes", "label": part.name}
         colour, thick = part.colour or style.BLUE, 0.6 * part.width * width
+        if part.diameter:
+            thick = thickness(ax, part, net.bar_count)
         draw_bars(ax, points, net.bars[part.bars], colors=colour, linewidths=thick, **options)
 
     seen = view.see(net.positions)
@@ -110,7 +113,7 @@ def draw_shape(ax: Axes, result: Result) -> None:
         if part.colour is None:
             draw_tension(ax, points, net.bars[bars], tension[bars], scale, named=slack_name(shown))
         else:
-            options = {"linewidths": part.width * line_width(net.bar_count), "zorder": 2.2, "gid": "ropes"}
+            options = {"linewidths": thickness(ax, part, net.bar_count), "zorder": 2.2, "gid": "ropes"}
             draw_bars(ax, points, net.bars[bars], colors=part.colour, label=part.name, **options)
 
     seen = view.see(result.position[-1])

@@ -10,6 +10,7 @@ from .parts import PartFigures, by_part, part_figures, write_parts
 from .probes import Probes, probe, probes_of, write_probes
 from .ranges import OutOfRange, moments, out_of_range
 from .recorder import Recorder
+from .rings import RingFigures, ring_figures, rings_told, write_rings
 from .store import ResultError, load, save
 from .tables import write_summary, write_tables
 from .water import flow_direction, mean_current, water_figures
@@ -27,6 +28,7 @@ __all__ = [
     "Probes",
     "Recorder",
     "ResultError",
+    "RingFigures",
     "audit",
     "by_part",
     "compare",
@@ -43,6 +45,8 @@ __all__ = [
     "part_figures",
     "probe",
     "probes_of",
+    "ring_figures",
+    "rings_told",
     "save",
     "save_checkpoint",
     "summary",
@@ -51,6 +55,7 @@ __all__ = [
     "write_loads",
     "write_parts",
     "write_probes",
+    "write_rings",
     "write_summary",
     "write_tables",
 ]

@@ -25,7 +25,7 @@ from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
 from .motion import Motion, Move
 from .moves import motion_of
-from .rigging import rigged
+from .rigging import free_rings, rigged
 from .system import Displaced, System
 
 Array = NDArray[np.float64]
@@ -36,10 +36,11 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its netting in the order of the file, then its ropes, floats and sinkers."""
+    """Make the net of a case: all its netting in the order of the file, then rings of their own, then the rest."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
-    return rigged(together([piece.lay(netting, twines[netting.twine]) for piece, netting in made]), case)
+    laid = [piece.lay(netting, twines[netting.twine]) for piece, netting in made]
+    return rigged(together([*laid, *free_rings(case)]), case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -209,6 +210,12 @@ def _sources(net: Net, c: Coefficients, damping: Array, waves: Waves | None) -> 
         _mass_source(c),
         *_wave_sources(waves),
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
+        *(
+            f"bending of '{t.name}': EI = {t.bending_stiffness:.4g} N m2, discrete elastic rods (M. Bergou et al., ACM "
+            "Trans. Graph. 27(3), 63, 2008, not opened; derived here and checked)"
+            for t in net.twines
+            if t.bending_stiffness > 0.0
+        ),
         *(
             f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
             for i, t in enumerate(net.twines)

@@ -99,6 +99,7 @@ def _part(part: Bars | Knots | Outline) -> dict[str, Any]:
         return about | {"kind": "outline", "points": part.points.tolist(), "width": part.width}
     about["own"] = part.own
     if isinstance(part, Bars):
-        return about | {"kind": "bars", "bars": deflated(part.bars.astype(np.uint32)), "width": part.width}
+        about |= {"kind": "bars", "bars": deflated(part.bars.astype(np.uint32)), "width": part.width}
+        return about | {"diameter": part.diameter}
     knots = deflated(part.knots.astype(np.uint32))
     return about | {"kind": "knots", "knots": knots, "marker": part.marker, "size": part.size}

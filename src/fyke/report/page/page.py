@@ -97,6 +97,8 @@ def render(
         panels=[(p.name, words.panel_rows(result, p)) for p in result.net.panels],
         part_columns=words.PART_COLUMNS,
         part_table=words.part_table(figures),
+        ring_columns=words.RING_COLUMNS,
+        ring_table=words.ring_table(figures),
         load_columns=load_columns(figures),
         load_table=load_table(figures),
         supports=words.support_rows(result, origin.system),
