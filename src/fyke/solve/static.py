@@ -26,12 +26,12 @@ from .equilibrium import Equilibrium
 from .far_field import Far
 from .held_shelter import by_renewals
 from .linear import Factorizer, SingularMatrixError
-from .modes import stability_warnings
 from .near_field import Near
 from .nested import Nested, nested_start
 from .outcome import Outcome, Verdict, out_of_memory
 from .relaxation import relax
 from .result import Result
+from .stability import settle
 from .strain import strain_warnings
 from .warm_field import Warm
 
@@ -86,6 +86,7 @@ def solve_static(
     if nest:
         s.smoothing = nest.smoothing
     loose = loose_parts(system)
+    unstable: tuple[str, ...] = ()
     if loose:
         name, message, advice = _floating(system, loose)
     elif not np.isfinite(s.residual):
@@ -100,6 +101,9 @@ def solve_static(
                 name, message, advice = by_renewals(
                     s, tolerance, begin.tension, lambda to, f: _iterate(s, to, max_iterations, f, on_progress)
                 )
+            if name == "converged":
+                more, unstable = settle(s, tolerance, max_iterations)
+                message += f", {more} more to leave an equilibrium that is not stable" if more else ""
         except KeyboardInterrupt:
             name, message, advice = _interrupted(s)
         except MemoryError as error:
@@ -120,8 +124,7 @@ def solve_static(
         factorizations=s.factorizations,
         residual=frame.unbalanced_force,
         wall_time=time.perf_counter() - began,
-        warnings=strain_warnings(system.net, [frame])
-        + (stability_warnings(system, state.position) if name == "converged" else ()),
+        warnings=strain_warnings(system.net, [frame]) + unstable,
     )
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 
