@@ -43,6 +43,7 @@ from ..results import (
 )
 from ..results.lines import line_words
 from ..results.parts import part_words
+from ..results.periods import period_figures, period_words
 from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
@@ -270,6 +271,8 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
     figures |= line_figures(system, result)
     figures |= rings_told(system, result)
+    if case.output.periods is not None and case.solve.kind == "static":
+        figures |= period_figures(system, result, case.output.periods)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
     held = hanging(system, static=case.solve.kind == "static")
@@ -338,6 +341,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *water_words(figures),
         *part_words(figures),
+        *period_words(figures),
         *line_words(figures),
         *ring_words(figures),
         *_account_rows(figures),
