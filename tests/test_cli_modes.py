@@ -72,7 +72,7 @@ def test_wrong_input_and_no_equilibrium_have_their_exit_codes(tmp_path):
 
 
 def test_shares_of_all_modes_add_up_to_the_whole():
-    """Effective modal masses of a complete set are the mass itself, along every axis; a ball on a string swings as one."""
+    """Effective modal masses of a complete set are the mass itself, along every axis."""
     twine = fyke.Twine("s", 1140.0, 1e-3, fyke.LinearLaw(1e9))
     points = [(0.0, 0.0, 0.0), (0.0, 0.0, -0.5), (0.1, 0.0, -1.0)]
     balls = {"knot_diameter": [0.0, 0.02, 0.2], "knot_density": [1000.0, 3000.0, 8000.0]}
@@ -85,7 +85,7 @@ def test_shares_of_all_modes_add_up_to_the_whole():
 
 
 def test_a_run_tells_the_periods_that_modes_finds(tmp_path):
-    text = PANEL.read_text().replace("[output]", "[output]\nperiods = 3")
+    text = PANEL.read_text() + "\n[output]\nperiods = 3\n"
     file = tmp_path / "panel.toml"
     file.write_text(text)
     done = CliRunner().invoke(app, ["run", str(file), "-o", str(tmp_path / "out"), "--no-figures", "--json"])
