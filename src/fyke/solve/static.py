@@ -45,7 +45,7 @@ NEARER, LEAST_NEAR = 1e-3, 1e-8
 # Steps shorter than SHORT, so many in a row, are a stall.
 SHORT, SHORT_STEPS = 1e-2, 5
 # A warm start that is not there after so many iterations was none: the solve begins anew.
-WARM_STEPS = 25
+WARM_STEPS = 45
 # The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
 PATIENCE = 50
 # Floating parts that are named one by one.
@@ -83,6 +83,8 @@ def solve_static(
     nest = _nested(system, begin, tolerance, on_progress)
     begin = nest.start if nest else begin
     s = Equilibrium(system, begin, linear)
+    if nest:
+        s.smoothing = nest.smoothing
     loose = loose_parts(system)
     unstable: tuple[str, ...] = ()
     if loose:
