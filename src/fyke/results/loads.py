@@ -49,14 +49,14 @@ class PartLoad:
 class LoadRow:
     """One load case. Forces are as they were solved: the factors count in the utilisation alone.
 
-    outcome: how the solve ended; current: m/s, mean over the net as built, towards: deg from +x turning to +y, None in
-    still water; wave_height (m, significant of an irregular sea), wave_period (s, of its peak), waves_towards (deg):
-    None without waves; support_force: N, largest of all frames; drag: N, in the last frame; tension: N, largest of all
-    parts and frames, in tension_part; mooring_tension: that of moorings alone, None without them; collar_force: N,
-    size of the force of the netting on the collar, the largest of several, in the last frame, None without one;
-    utilisation: the largest of all parts, in utilisation_part; volume_left: share of the volume as built in the worst frame, None of
-    netting that encloses none; displacement: m, largest of a knot from where it was built; clearance: m, least above
-    the sea bed, None without a depth; parts: those with bars.
+    outcome: how the solve ended; current: m/s, mean over the net as built, towards: deg from +x turning to +y, None
+    in still water; wave_height (m, significant of an irregular sea), wave_period (s, of its peak), waves_towards
+    (deg): None without waves; support_force: N, largest of all frames; drag: N, in the last frame; tension: N,
+    largest of all parts and frames, in tension_part; mooring_tension: that of moorings alone, None without them;
+    collar_force: N, size of the force of the netting on the collar, the largest of several, in the last frame, None
+    without one; utilisation: the largest of all parts, in utilisation_part; volume_left: share of the volume as
+    built in the worst frame, None of netting that encloses none; displacement: m, largest of a knot from where it
+    was built; clearance: m, least above the sea bed, None without a depth; parts: those with bars.
     """
 
     name: str
