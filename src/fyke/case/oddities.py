@@ -31,6 +31,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *_groundless(case),
         *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
         *motion_oddities(case),
@@ -102,6 +103,13 @@ def _unused(case: Case) -> Iterator[str]:
     made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
     for name in sorted(case.material.keys() - made):
         yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
+
+
+def _groundless(case: Case) -> Iterator[str]:
+    if case.lines and case.water.depth is not None and case.bed is None:
+        yield (
+            f"Nothing bears lines at the sea bed {case.water.depth:g} m down: they hang through it; add [bed]."
+        )
 
 
 def _no_effect(case: Case) -> Iterator[str]:

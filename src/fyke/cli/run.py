@@ -58,6 +58,7 @@ from .folder import (
     BARS,
     CHECKPOINT,
     KNOTS,
+    LINES,
     PARTS,
     RESULT,
     RINGS,
@@ -269,8 +270,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
-    figures |= line_figures(system, result)
-    figures |= rings_told(system, result)
+    figures |= line_figures(system, result) | rings_told(system, result)
     if case.output.periods is not None and case.solve.kind == "static":
         figures |= period_figures(system, result, case.output.periods)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
@@ -307,7 +307,9 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, PARTS, *(one for one in (RINGS, WAVES) if (folder / one).is_file())])
+    tables = ", ".join(
+        [KNOTS, BARS, PARTS, *(one for one in (RINGS, LINES, WAVES) if (folder / one).is_file())]
+    )
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -339,11 +341,11 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("weight in water", quantity(figures["weight_in_water"], "N")),
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
-        *water_words(figures),
-        *part_words(figures),
-        *period_words(figures),
-        *line_words(figures),
-        *ring_words(figures),
+        *(
+            row
+            for told in (water_words, part_words, period_words, line_words, ring_words)
+            for row in told(figures)
+        ),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
