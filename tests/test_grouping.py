@@ -14,6 +14,7 @@ import pytest
 import fyke
 from fyke.case import parse_case
 from fyke.case.errors import CaseError
+from fyke.forces.bed import footprint
 from fyke.forces.evaluate import evaluate
 from fyke.netting.joining import sewn
 from fyke.netting.measures import measure_net
@@ -25,6 +26,7 @@ from fyke.results.audit import audit
 from fyke.results.derive import summary
 from fyke.results.parts import by_part
 from fyke.results.volume import volume_history
+from fyke.solve import nested
 from fyke.system.system import State
 from fyke.water.laws.bars import Hoerner, Takagi
 from fyke.water.laws.knots import SchillerNaumann
@@ -258,6 +260,17 @@ def test_a_real_bar_of_a_grouped_panel_bears_what_it_bears_in_the_real_net():
     assert told[2][1:] == pytest.approx(told[0][1:], rel=0.003)
 
 
+@pytest.mark.parametrize(("mesh", "meshes"), [("diamond", (64, 48)), ("square", (90, 66))])
+def test_a_grouped_panel_may_begin_on_larger_meshes_still(monkeypatch, mesh, meshes):
+    net = panel(mesh, meshes, 2, hung=0.97)
+    system = fyke.make_system(net, current=(0.5, 0.0, 0.1))
+    plain = fyke.solve_static(system, tolerance=1e-10)
+    monkeypatch.setattr(nested, "LARGE", 400)
+    begun = fyke.solve_static(system, tolerance=1e-10)
+    assert plain.outcome.ok and begun.outcome.ok and "begun from" in begun.outcome.message
+    assert np.abs(begun.tension[-1] - plain.tension[-1]).max() < 1e-7
+
+
 def test_volume_and_drag_of_a_cage_converge_as_the_group_falls():
     """48 x 24 meshes round an axis, with weights: the difference to the real net falls with the group."""
     told = []
@@ -464,6 +477,17 @@ def test_energy_of_a_grouped_net_in_motion_is_accounted_for():
     energy = audit(system, result).energy
     assert energy.elastic > 0.05
     assert abs(energy.remainder) < 0.01 * energy.elastic
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+def test_what_lies_on_the_bed_has_the_area_of_the_real_netting_by_hand(mesh):
+    knots, bars = counts(mesh, (16, 8))
+    for group in (1, 2, 4):
+        area, diameter, _ = footprint(panel(mesh, (16, 8), group))
+        assert area.sum() == pytest.approx(
+            TWINE_DIAMETER * BAR * bars + np.pi / 4.0 * KNOT**2 * knots, rel=1e-12
+        )
+        assert diameter == pytest.approx(np.full(len(diameter), KNOT))
 
 
 def test_a_result_of_a_grouped_net_comes_back_from_its_file(tmp_path):

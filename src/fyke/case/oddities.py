@@ -117,6 +117,8 @@ def _no_effect(case: Case) -> Iterator[str]:
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
     if case.drag.kind == "bars" and case.drag.screens is not None:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
+    if case.solve.kind == "dynamic" and case.output.periods is not None:
+        yield "[output] periods plays no part in a dynamic case; natural periods are those about an equilibrium."
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
 

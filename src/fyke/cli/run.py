@@ -43,6 +43,7 @@ from ..results import (
 )
 from ..results.lines import line_words
 from ..results.parts import part_words
+from ..results.periods import period_figures, period_words
 from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
@@ -270,6 +271,8 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
     figures |= line_figures(system, result) | rings_told(system, result)
+    if case.output.periods is not None and case.solve.kind == "static":
+        figures |= period_figures(system, result, case.output.periods)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
     held = hanging(system, static=case.solve.kind == "static")
@@ -338,7 +341,11 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("weight in water", quantity(figures["weight_in_water"], "N")),
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
-        *(row for told in (water_words, part_words, line_words, ring_words) for row in told(figures)),
+        *(
+            row
+            for told in (water_words, part_words, period_words, line_words, ring_words)
+            for row in told(figures)
+        ),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
