@@ -143,6 +143,12 @@ def test_figures_of_lines_are_those_of_the_forces():
     assert line["max_tension"] == result.tension[-1].max()
 
 
+def test_lines_over_no_ground_are_warned_of():
+    (said,) = (one for one in parse_case(WHOLE.replace("[bed]\n", "")).warnings if "hang through" in one)
+    assert "20 m down" in said and "add [bed]" in said
+    assert not any("hang through" in one for one in parse_case(WHOLE).warnings)
+
+
 def test_check_tells_of_lines_and_the_bed():
     told = judge(parse_case(WHOLE))
     assert told["bed"]["depth"] == 20.0
@@ -289,3 +295,21 @@ def test_explicit_steppers_are_refused_with_a_bed():
     solve = '[solve]\nkind = "dynamic"\nduration = 1.0\nstepper = "verner"\n'
     with pytest.raises(CaseError, match="which explicit steps do not know"):
         parse_case(HEAD + CAGE + LINE + solve)
+
+
+def test_pictures_show_the_sea_bed_that_lines_come_down_to(tmp_path):
+    """Not where the bed is far below, and not without one."""
+    from fyke.report.figures import equilibrium_shape
+    from fyke.report.ground import bed_under
+
+    text = (HEAD + LINE).replace('"cage.top[0]"', "[0.0, 0.0, -1.0]").replace('"36 m"', "48")
+    for change, level in (
+        (("", ""), -20.0),
+        (("[bed]\n", ""), None),
+        (("depth = 20.0", "depth = 40.0"), None),
+    ):
+        case, net = built(text.replace(*change, 1))
+        result = solve_static(build_system(net, case), tolerance=1e-3)
+        assert bed_under(result) == level
+        shown = {patch.get_gid() for ax in equilibrium_shape(result).axes for patch in ax.patches}
+        assert ("sea bed" in shown) == (level is not None)

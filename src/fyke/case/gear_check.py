@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
 _ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
+_LEAST_EDGE = 1e-6  # m, that a rope can follow; a shorter one is a slip of the pen
 _FLAT = ("panel", "trapezoid", "triangle")
 
 
@@ -301,8 +302,8 @@ def _rope(
             yield one
             continue
         count, built = one
-        if count == 1:
-            yield _one_knot(path, called, rope.along)
+        if count == 1 or built < _LEAST_EDGE:
+            yield _no_way(path, called, rope.along, count, built)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -332,13 +333,19 @@ def _way(
     for one in edge_named(path, called, part.along, parts, sheets):
         if len(one) == 4:
             yield one
-        elif one[0] == 1:
-            yield _one_knot(path, called, part.along)
+        elif one[0] == 1 or one[1] < _LEAST_EDGE:
+            yield _no_way(path, called, part.along, *one)
 
 
-def _one_knot(path: Path, called: str, along: str) -> Finding:
-    found = f"{written(along)} of {called}, one knot"
-    return (*path, "along"), found, "an edge of several knots", "name another edge"
+def _no_way(path: Path, called: str, along: str, count: int, built: float) -> Finding:
+    if count == 1:
+        found = f"{written(along)} of {called}, one knot"
+        return (*path, "along"), found, "an edge of several knots", "name another edge"
+    found, allowed = (
+        f"{written(along)} of {called}, {built:g} m long",
+        f"an edge of {_LEAST_EDGE:g} m or more",
+    )
+    return (*path, "along"), found, allowed, "check the units of the netting that it belongs to"
 
 
 def _hung(

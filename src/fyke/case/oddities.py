@@ -31,6 +31,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *_groundless(case),
         *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
         *motion_oddities(case),
@@ -104,11 +105,20 @@ def _unused(case: Case) -> Iterator[str]:
         yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 
+def _groundless(case: Case) -> Iterator[str]:
+    if case.lines and case.water.depth is not None and case.bed is None:
+        yield (
+            f"Nothing bears lines at the sea bed {case.water.depth:g} m down: they hang through it; add [bed]."
+        )
+
+
 def _no_effect(case: Case) -> Iterator[str]:
     if case.solve.kind == "dynamic" and "tolerance" in case.solve.model_fields_set:
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
     if case.drag.kind == "bars" and case.drag.screens is not None:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
+    if case.solve.kind == "dynamic" and case.output.periods is not None:
+        yield "[output] periods plays no part in a dynamic case; natural periods are those about an equilibrium."
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
 
