@@ -212,6 +212,10 @@ WRONG = {
         WHOLE.replace("rigid = true", 'rigid = "yes"'),
         ("[[gear]] 4 rigid", '"yes"', "true or false", "without quotes"),
     ),
+    "explicit steps": (
+        WHOLE + '[solve]\nkind = "dynamic"\nduration = 1\nstepper = "verner"\n',
+        ("[solve] stepper", '"verner" with rings or collars', "implicit", "leave it out"),
+    ),
     "a cage held by nothing": (
         WHOLE.replace('height = "8 m"', 'height = "8 m"\nfixed = "none"'),
         ("[[gear]] 1 fixed", '"none"', "static", "nothing would hold it"),
