@@ -9,10 +9,10 @@ import pytest
 from scipy.optimize import fsolve
 
 import fyke
-from fyke.forces.bed import OnBed
+from fyke.forces.bed import OnBed, footprint
 from fyke.netting.rigging import Sphere, with_bodies
 from fyke.results.audit import audit
-from fyke.system.bed import CREEP, SOFT, Bed, footprint
+from fyke.water.bed import CREEP, SOFT, Bed
 from reference import NO_FORCES, thread
 
 WATER = fyke.Water(density=1025.0, gravity=9.81)

@@ -196,6 +196,44 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     assert [part.kind for part in case.gear] == kinds
 
 
+def lines_of_the_template(lines):
+    """Numbers of the lines that show the sea bed, chain and lines."""
+    first = lines.index("# Lines free of netting, and the sea bed, which lies at the depth of [water]:")
+    return range(first + 1, lines.index("", first))
+
+
+@pytest.mark.parametrize(
+    "left_out", [("pieces", "pretension"), ("pieces", 'length = "6.5'), ("twine", "length", "pretension")]
+)
+def test_the_lines_of_the_template_can_be_used(left_out):
+    """On the template's panel and a cylinder, the moorings always with their length."""
+    lines = template().splitlines()
+    block = [lines[i][2:] for i in lines_of_the_template(lines)]
+    moorings = next(i for i, line in enumerate(block) if line.startswith('kind = "moorings"'))
+    block = [line for i, line in enumerate(block) if i > moorings or not line.startswith(left_out)]
+    more = """
+[twine.rope]
+material = "PES"
+diameter = "8 mm"
+[[gear]]
+kind = "cylinder"
+name = "cage"
+netting = "main"
+meshes = [64, 18]
+hanging_ratio = [0.6, 0.8]
+[[gear]]
+kind = "panel"
+name = "left"
+netting = "main"
+meshes = [4, 4]
+hanging_ratio = 0.6
+"""
+    text = template().replace("# depth = 20.0 ", "depth = 20.0 ")
+    case = parse_case("\n".join([text, more, *block]))
+    assert [part.kind for part in case.lines] == ["line", "moorings"]
+    assert case.bed is not None and case.chain["links"].bar_diameter == 0.013
+
+
 def test_the_motion_of_the_template_can_be_used(tmp_path):
     lines = template().splitlines()
     (tmp_path / "motion.csv").write_text("time,dx,dy,dz\n0,0,0,0\n2,0,0,0.1\n")
@@ -234,7 +272,7 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index("", waves),
     )
     moved = lines.index("# [[motion]]")
-    parts = {*gear_of_the_template(lines), *shapes_of_the_template(lines)}
+    parts = {*gear_of_the_template(lines), *shapes_of_the_template(lines), *lines_of_the_template(lines)}
     parts |= {*range(moved, lines.index("", moved))}
     for number, line in enumerate(lines):
         words = ("The", "A ", "For", "By")
@@ -284,7 +322,7 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
 def test_json_schema_lets_a_length_be_a_number_or_a_text_with_unit():
     schema = json_schema()
     assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
-    assert schema["required"] == ["schema", "current", "twine", "netting", "gear"]
+    assert schema["required"] == ["schema", "current", "gear"]
     number, text = schema["$defs"]["NettingSpec"]["properties"]["bar_length"]["anyOf"]
     assert number["type"] == "number" and number["exclusiveMinimum"] == 0.0
     assert re.search(text["pattern"], "30 mm") and not re.search(text["pattern"], "30 kg")

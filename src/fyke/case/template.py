@@ -154,6 +154,35 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # buoyancy = "5 N"                   # lift of each one under water, with its density
 # density = 200.0
 
+# Lines free of netting, and the sea bed, which lies at the depth of [water]:
+# [bed]
+# friction = 0.5
+# stiffness = 3e6                    # Pa per metre of sinking in
+# damping = 3e5                      # Pa s/m
+# [chain.links]                      # steel chain, which lines may name as their twine
+# bar_diameter = "13 mm"             # of the steel of its links
+# links = "studless"                 # studless | studded
+# breaking_strength = "150 kN"
+# [[gear]]
+# kind = "line"
+# name = "warp"
+# from = [6.0, 0.0, 0.0]             # a place, m, or a knot: "cage:0-0", "cage.top[0]", "footrope:3"
+# to = "left.top[0]"
+# twine = "rope"                     # or a [chain.NAME]
+# length = "6.5 m"                   # unloaded; or, instead of it:
+# pretension = "20 N"                # at its end (to), as it hangs in still water
+# segments = 20
+# pieces = [{ twine = "rope", length = "6.5 m", segments = 10 }]   # instead of twine and length
+# fixed = "both"                     # both | from | to | none: which of its ends that are places are held
+# [[gear]]
+# kind = "moorings"                  # lines as above, from anchors on the sea bed, evenly around a rim or ring
+# around = "cage.top"
+# count = 4
+# radius = "5 m"                     # of the circle of anchors
+# bearing = "45 deg"                 # of the first one, from +x turning to +y
+# twine = "rope"
+# length = "25 m"
+
 # Netting cut to shape, cages with four walls, and seams:
 # [[gear]]
 # kind = "trapezoid"                 # trapezoid | triangle (point = "down" or "up" instead of cut and lower)

@@ -312,7 +312,9 @@ def part_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
         words = f"{now:.4g} of {built:.4g} m³, {100.0 * (1.0 - now / built):.3g} % lost"
         rows.append(("volume", words + (f", {least:.4g} m³ at least" if least < now else "")))
     if "clearance" in figures:
-        rows.append(("clearance to the sea bed", f"{figures['clearance']:.4g} m"))
+        height = figures["clearance"]
+        words = f"{height:.4g} m" if height > 0.0 else f"none, it reaches {-height:.2g} m into it"
+        rows.append(("clearance to the sea bed", words))
     used = [part for part in figures.get("parts", ()) if part["utilisation"] is not None]
     if used:
         most = max(used, key=lambda part: float(part["utilisation"]))

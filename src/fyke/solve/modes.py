@@ -12,7 +12,7 @@ further runs across the modes already found look for what was missed, until noth
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -128,7 +128,7 @@ def stability_warnings(system: System, position: Array) -> tuple[str, ...]:
 def _stiffness(system: System, position: Array) -> tuple[Elements, Pattern, Array, Knots]:
     """Elements with loose knots held, and the stiffness of the net (N/m) as data of a pattern; the loose knots."""
     still = np.zeros_like(position)
-    around = Surroundings(replace(system, waves=None))
+    around = Surroundings(system.resting())
     el, _ = around.at(position, still, 0.0)
     # About the net's middle, coordinates are smallest and so is their rounding.
     x = position - position.mean(axis=0)

@@ -78,12 +78,7 @@ def solve_static(
             "a net that is towed has its equilibrium as it is seen from what tows it: "
             "solve fyke.system.carriage.seen_from_the_carriage(system)"
         )
-    system = replace(
-        system,
-        waves=None,
-        motion=None,
-        bed=system.bed and replace(system.bed, laid=system.net.positions[:, :2]),
-    )
+    system = system.resting()
     begin = _begin(system, tolerance, max_iterations, start)
     nest = _nested(system, begin, tolerance, on_progress)
     begin = nest.start if nest else begin
