@@ -288,11 +288,20 @@ def test_modes_say_that_a_strut_beyond_its_buckling_load_does_not_stay():
     straight[:, 2] *= 1.0 - 1.2 * critical / 1e7
     with pytest.raises(ValueError, match="not stable"):
         fyke.modes(system, straight, count=2)
-    # Statics finds this equilibrium, since nothing pushes it aside, and says what it is.
-    result = fyke.solve_static(system, tolerance=1e-8)
-    assert result.outcome.ok and "not stable" in result.outcome.warnings[0]
-    below = cantilever(16, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical))
-    assert fyke.solve_static(below, tolerance=1e-8).outcome.warnings == ()
+
+
+def test_statics_leaves_a_strut_that_is_straight_beyond_its_buckling_load():
+    """Newton's method stays straight, since nothing pushes it aside; what buckles is the elastica by 1.2 times P_cr."""
+    critical = np.pi**2 * STIFFNESS / (4.0 * LENGTH**2)
+    k2 = brentq(lambda k2: (2.0 * ellipk(k2) / np.pi) ** 2 - 1.2, 0.01, 0.9)
+    result = fyke.solve_static(cantilever(40, (0.0, 0.0, 1.0), (0.0, 0.0, -1.2 * critical)), tolerance=1e-8)
+    assert result.outcome.ok and result.outcome.warnings == (), result.outcome
+    assert "not stable" in result.outcome.message
+    tip = result.position[-1][-1] / LENGTH
+    assert np.hypot(tip[0], tip[1]) == pytest.approx(2.0 * np.sqrt(k2) / ellipk(k2), abs=2e-3)
+    assert tip[2] == pytest.approx(2.0 * ellipe(k2) / ellipk(k2) - 1.0, abs=2e-3)
+    below = fyke.solve_static(cantilever(40, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical)), tolerance=1e-8)
+    assert "not stable" not in below.outcome.message and below.outcome.warnings == ()
 
 
 def test_a_ring_swings_in_its_plane():

@@ -11,6 +11,7 @@ import pytest
 import fyke
 from fyke.case import CaseError, parse_case
 from fyke.cli.check import check_case
+from fyke.forces.screens import Screens
 from fyke.netting.cutting import Taper, cuts_of, lost, rate_of, repeated, spread
 from fyke.netting.faces import faces_of
 from fyke.netting.hexagon import Hexagon
@@ -21,6 +22,7 @@ from fyke.netting.shapes import bag, box, cage, frustum
 from fyke.netting.sheet import Netting, sheet
 from fyke.netting.together import together
 from fyke.results.volume import enclosed_volume
+from fyke.water.laws.panels import Aarsnes
 
 BAR = 0.05
 TWINE = fyke.Twine("n", 1140.0, 2e-3, fyke.LinearLaw(1e9))
@@ -264,6 +266,40 @@ def test_symmetric_gear_stays_symmetric(name, net):
     result = fyke.solve_static(fyke.make_system(heavy, current=(0.2, 0.0, 0.0)), tolerance=1e-10)
     assert result.outcome.ok, name
     assert mirrored(net, result) < 1e-9 * np.ptp(net.positions, axis=0).max()
+
+
+@pytest.mark.parametrize(("high", "low", "towards"), [(0.6, 0.6, "cylinder"), (0.6, 0.0, "cone")])
+def test_a_frustum_comes_to_its_neighbours_as_its_rims_do(high, low, towards):
+    """Held by both rims in a current: tensions of a frustum go to those of the limit in proportion to its diameter."""
+    found = {}
+    for more in (0.0, 0.02, 0.01, 0.005):
+        sign = -1.0 if towards == "cylinder" else 1.0
+        rims = (low + sign * more, high)
+        net = frustum(
+            made_of("diamond"), (12, 4), diameters=rims, height=0.36, centre=(0, 0, -0.2), fixed="edges"
+        )
+        result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)), tolerance=1e-10)
+        assert result.outcome.ok
+        assert net.panels[0].shape == (towards if more == 0.0 else "frustum")
+        found[more] = result.tension[-1]
+    away = [np.linalg.norm(found[more] - found[0.0]) for more in (0.02, 0.01, 0.005)]
+    assert away[0] > away[1] > away[2]
+    assert away[2] / away[1] == pytest.approx(0.5, abs=0.05)
+    assert away[2] < 0.05 * np.linalg.norm(found[0.0])
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.9])
+def test_drag_of_a_box_of_screens_is_that_of_its_panels(speed):
+    """Front and back face on, sides and bottom edge on: rho/2 u^2 (2 A C_D(0) + A_along C_D(90 deg)), as Aarsnes."""
+    net, (x, y, z) = open_box("square")
+    faces, load = faces_of(net), np.zeros_like(net.positions)
+    screens = Screens.of(faces, Aarsnes(), 1000.0, 1e-6)
+    screens.add_load(net.positions, np.tile([speed, 0.0, 0.0], (net.knot_count, 1)), load)
+    solid = 2.0 * 0.002 / BAR - (0.002 / BAR) ** 2
+    assert faces.solidity == pytest.approx(np.full(faces.count, solid))
+    face_on = solid - 1.24 * solid**2 + 13.7 * solid**3
+    drag = 0.5 * 1000.0 * speed**2 * (2.0 * y * z * face_on + 0.04 * (2.0 * x * z + x * y))
+    assert load.sum(axis=0) == pytest.approx([drag, 0.0, 0.0], rel=1e-9, abs=1e-12)
 
 
 HEAD = """schema = 1

@@ -93,8 +93,11 @@ def with_shared_bars(net: Net) -> Net:
     ):
         table[at] = found
     # Of the real bars that two stand for along the seam, one is shared.
-    many, alike = net.bar_multiple.copy(), np.bincount(which)
-    many[every[first]] = (np.bincount(which, net.bar_multiple[every[:, 0]]) - (alike - 1))[:, None]
+    # Those along the seam of one panel are in it twice.
+    different, once = np.unique(every[:, 0], return_index=True)
+    alike, summed = np.bincount(which[once]), np.bincount(which[once], net.bar_multiple[different])
+    many = net.bar_multiple.copy()
+    many[every[first]] = (summed - (alike - 1))[:, None]
     panels = tuple(replace(panel, bars=table) for panel, table in zip(net.panels, bars, strict=True))
     return _without(replace(net, panels=panels, bar_multiple=many), np.setdiff1d(every, own))
 
