@@ -134,8 +134,8 @@ def test_transmissibility_of_a_spring(stepper, ratio):
     system = shaken(Swing([0.0, 0.0, size], period))
     step = period / 300
     method = stepper(max_step=step, fixed=True, rtol=1e-9, atol=1e-12)
-    run = fyke.simulate(system, duration=40 * period, every=period / 8, stepper=method)
-    last = run.time > 30 * period
+    run = fyke.simulate(system, duration=26 * period, every=period / 8, stepper=method)
+    last = run.time > 20 * period
     height = run.position[last, 1, 2] - run.position[last, 1, 2].mean()
     amplitude = np.sqrt(2.0 * (height**2).mean())
     s = omega * RETARDATION

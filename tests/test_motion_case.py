@@ -365,3 +365,38 @@ def test_what_a_collar_sets_free_is_told_when_it_is_built(tmp_path, capsys):
     assert check_case(file, json=False) == 2
     told = " ".join(capsys.readouterr().err.split())
     assert "[[motion]] 1" in told and "16 of its 16 knots are free" in told and "hold them" in told
+
+
+LINE = """schema = 1
+[water]
+depth = 15.0
+[current]
+velocity = [0.0, 0.0, 0.0]
+[bed]
+[chain.main]
+bar_diameter = "13 mm"
+[[gear]]
+kind = "line"
+name = "mooring"
+from = [0.0, 0.0, -15.0]
+to = [38.0, 0.0, -0.2]
+twine = "main"
+length = "45 m"
+segments = 30
+"""
+
+
+def test_a_fairlead_heaves():
+    """The end of a mooring line goes up and down, its anchor does not; the chain follows."""
+    motion = '[[motion]]\nof = ["mooring:30"]\namplitude = [0, 0, 0.5]\nperiod = 4\nramp = 2\n'
+    case = parse_case(LINE + motion + '[solve]\nkind = "dynamic"\nduration = 5.0\n')
+    net = build_net(case)
+    system = build_system(net, case)
+    assert [net.labels[knot] for knot in system.motion.knots] == ["mooring:30"]
+    run = fyke.simulate(system, duration=5.0, every=0.5)
+    assert run.outcome.ok
+    assert run.position[-1, -1] == pytest.approx([38.0, 0.0, -0.2 + 0.5], abs=1e-12)
+    assert run.position[-1, 0] == pytest.approx([0.0, 0.0, -15.0], abs=1e-12)
+    assert np.ptp(run.tension[4:, -1]) > 0.05 * run.tension[0, -1]
+    whole = parse_case(LINE + motion.replace("mooring:30", "mooring") + DYNAMIC)
+    assert len(build_system(build_net(whole), whole).motion.knots) == 2

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from ..netting.named import edges_of, is_gear, knots_named
 from ..netting.net import Net
+from ..netting.references import edges_of, is_gear, knots_named
 from .errors import CaseError, Problem
 from .keys import nearest
 from .motion import MotionRecord, MotionSpec

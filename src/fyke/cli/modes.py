@@ -85,7 +85,7 @@ def _findings(case: Case, system: System, rest: Result, found: Modes | None) -> 
 
     modes: slowest first; frequency in Hz, circular_frequency in rad/s, period in s, None where nothing pulls the net
     back; largest_motion: label of the knot that moves most, direction: its unit vector. loose: labels of the knots
-    without a period.
+    without a period. falling: how many of the modes are no oscillations, because a tube buckles.
     """
     labels, net = system.net.labels, system.net
     listed = []
@@ -105,6 +105,7 @@ def _findings(case: Case, system: System, rest: Result, found: Modes | None) -> 
         "knots": net.knot_count,
         "bars": net.bar_count,
         "modes": listed,
+        "falling": 0 if found is None else found.falling,
         "loose": [] if found is None else [labels[knot] for knot in found.loose],
         "outcome": rest.outcome.name,
         "message": rest.outcome.message,
@@ -125,6 +126,10 @@ def _show(title: str, findings: dict[str, Any]) -> None:
     if loose:
         named = ", ".join(loose[:MOST_NAMED]) + (" .." if len(loose) > MOST_NAMED else "")
         rows.append(("loose knots", f"{len(loose)}, on slack bars only and left out: {named}"))
+    if findings["falling"]:
+        rows.append(
+            ("falling", f"the first {findings['falling']}: the equilibrium is not stable in still water")
+        )
     print_rows(console, title, rows)
     console.print(Text("Natural modes, slowest first; undamped, with added mass", style="bold"))
     console.print(Text("  mode     period  frequency  moves most", style="dim"))

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .lattice import Corner, Side
-from .named import edges_of, knot_labelled
-from .net import Net
+from .net import Net, Panel
 
 Indices = NDArray[np.int64]
 
@@ -35,6 +34,65 @@ def knot_at(net: Net, text: str) -> int | None:
     else:
         return knot_labelled(net, text)
     return int(knots[place]) if knots is not None and place < len(knots) else None
+
+
+def knots_named(net: Net, text: str) -> Indices:
+    """Return all knots (k,) that a text names, rising; none where the net has nothing of this name.
+
+    A knot as `knot_at` takes it, the edge "NAME.EDGE" of netting, or the name of gear with all that it has: netting
+    with what is sewn to it, a rope, line or ring, floats or sinkers.
+    """
+    whole = _of_gear(net, text)
+    if whole:
+        return np.unique(np.concatenate(whole))
+    row = row_of(net, text)
+    if row is not None:
+        return np.unique(row)
+    knot = knot_at(net, text)
+    return np.array([] if knot is None else [knot], dtype=np.int64)
+
+
+def is_gear(net: Net, name: str) -> bool:
+    """Whether a name is that of whole netting, a rope, line or ring, floats or sinkers."""
+    return bool(_of_gear(net, name))
+
+
+def _of_gear(net: Net, name: str) -> list[Indices]:
+    """Knots of everything that is the gear of a name, further sheets such as "cage bottom" included."""
+    known: list[tuple[str, Indices]] = [(one.name, one.knots) for one in net.ropes]
+    known += [(one.name, one.knots) for one in net.bodies]
+    known += [(one.name, one.knots) for one in net.panels]
+    return [knots for one, knots in known if name and (one == name or one.startswith(f"{name} "))]
+
+
+def knot_labelled(net: Net, label: str) -> int | None:
+    """Return the knot of a label, which it may have lost to another knot in a seam; None where there is none.
+
+    Of grouped netting it is the one nearest to this knot of the real netting.
+    """
+    name, _, place = label.rpartition(":")
+    column, dash, row = place.partition("-")
+    panel = next((panel for panel in net.panels if panel.name == name), None)
+    if panel is not None and dash and column.isdecimal() and row.isdecimal():
+        return _knot_of(panel, int(column), int(row))
+    return net.labels.index(label) if label in net.labels else None
+
+
+def _knot_of(panel: Panel, i: int, j: int) -> int | None:
+    if panel.grouped_from:
+        last = np.array(panel.lattice.intervals) * np.array(panel.group)
+        if not (i <= last[0] and j <= last[1]):
+            return None
+        away = panel.flat - panel.real_place(i, j)
+        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
+    there = np.flatnonzero((panel.lattice.knots == (i, j)).all(axis=1))
+    return int(panel.knots[there[0]]) if len(there) else None
+
+
+def edges_of(panel: Panel) -> tuple[str, ...]:
+    """Return the edges that a panel has: netting that closes round has no left and right, a box has corners."""
+    corners = tuple(f"corner{number}" for number in range(1, len(panel.folds) + 1))
+    return ("top", "bottom", *corners) if panel.closed else ("top", "bottom", "left", "right", *corners)
 
 
 def real_step(net: Net, text: str) -> float:
