@@ -4,7 +4,9 @@ The sags of 96 x 96 meshes, whole and grouped, were computed with another progra
 interior-point method, documented to six digits.
 """
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -19,6 +21,7 @@ from fyke.netting.rigging import evenly
 from fyke.netting.shapes import box, cage
 from fyke.netting.sheet import Netting
 from fyke.netting.together import together
+from fyke.results.audit import audit
 from fyke.results.derive import summary
 from fyke.results.parts import by_part
 from fyke.results.volume import volume_history
@@ -28,6 +31,7 @@ from fyke.water.laws.knots import SchillerNaumann
 from fyke.water.laws.panels import KristiansenFaltinsen, Loland
 from fyke.water.wakes import LolandWake
 
+EXAMPLES = Path(__file__).parent.parent / "examples"
 BAR, TWINE_DIAMETER, KNOT = 0.03, 1.5e-3, 3.5e-3
 DENSITY, KNOT_DENSITY = 1140.0, 1300.0
 LAWS = {
@@ -306,6 +310,50 @@ density = 7850.0
 """
 
 
+GROUPED_EXAMPLES = {
+    "aarsnes_cage": 2,
+    "codend": 4,
+    "cone": 4,
+    "cylinder": 3,
+    "frustum": 4,
+    "gillnet": 16,
+    "leaning_panel": 4,
+    "model_cage": 5,
+    "panel_reynolds": 4,
+    "panel_sheared": 3,
+    "square_and_diamond": 4,
+    "two_screens": 4,
+    "wall_waves": 3,
+}
+
+
+@pytest.mark.parametrize("example", GROUPED_EXAMPLES)
+def test_totals_of_an_example_are_the_same_whatever_the_group(example):
+    """Seams, boxes, tips, ropes, floats, sinkers, screens and laws: weight, mass and drag areas of the real net."""
+    file = EXAMPLES / f"{example}.toml"
+    text = re.sub(r"(?m)^group = .*$", "", file.read_text())
+    text = re.sub(r"\[grouping\]\nknots = .*", "", text)
+    told = []
+    for group in (GROUPED_EXAMPLES[example], 1 if example != "gillnet" else 8):
+        case = parse_case(re.sub(r"(?m)^(mesh = .*)$", rf"\1\ngroup = {group}", text), path=file)
+        net = fyke.build_net(case)
+        el = fyke.build_system(net, case).elements
+        told.append(
+            [
+                measure_net(net).real_knots,
+                measure_net(net).mass,
+                el.weight[:, 2].sum(),
+                el.knot_mass.sum(),
+                el.bar_added_mass.sum(),
+                (el.normal_drag * el.rest_length).sum(),
+                el.knot_drag.sum(),
+                net.knot_count,
+            ]
+        )
+    assert told[0][:-1] == pytest.approx(told[1][:-1], rel=1e-9)
+    assert told[0][-1] < told[1][-1]
+
+
 def case_of(*, old=(), netting="", grouping=""):
     text = CAGE.replace('bar_length = "30 mm"', f'bar_length = "30 mm"\n{netting}') + grouping
     for before, after in old:
@@ -389,6 +437,33 @@ def test_what_is_wrong_with_a_group_is_told_in_four_parts(changes, parts):
         case_of(**changes)
     told = [" | ".join((p.where, p.found, p.allowed, p.cure)) for p in caught.value.problems]
     assert any(all(part in one for part in parts) for one in told), told
+
+
+def test_accounts_and_breaking_strength_of_a_grouped_net():
+    """Forces on the knots from the tensions of real bars balance; use of strength is that of one real bar."""
+    strong = [
+        ("group = 1", "group = 4"),
+        ('diameter = "1.5 mm"', 'diameter = "1.5 mm"\nbreaking_strength = "100 N"'),
+    ]
+    case = case_of(old=strong)
+    system = fyke.build_system(fyke.build_net(case), case)
+    result = fyke.solve_static(system)
+    assert result.outcome.ok
+    assert audit(system, result).unbalanced_force < 1e-6
+    wall = by_part(system, result)[0]
+    assert wall.utilisation == pytest.approx(result.tension[-1].max() / 100.0, rel=1e-12)
+    stress = result.tension[-1].max() / (1e9 * np.pi / 4.0 * TWINE_DIAMETER**2)
+    assert summary(result)["max_strain"] == pytest.approx(stress, rel=1e-6)
+
+
+def test_energy_of_a_grouped_net_in_motion_is_accounted_for():
+    """A taut panel bags in a current: the work of the current is in drag and in the stretch of all real bars."""
+    net = panel("square", (16, 16), 4, hung=1.001)
+    system = fyke.make_system(net, current=(1.5, 0.0, 0.0))
+    result = fyke.simulate(system, duration=0.05, every=5e-4, stepper=fyke.Implicit(max_step=2.5e-4))
+    energy = audit(system, result).energy
+    assert energy.elastic > 0.05
+    assert abs(energy.remainder) < 0.01 * energy.elastic
 
 
 def test_a_result_of_a_grouped_net_comes_back_from_its_file(tmp_path):

@@ -117,6 +117,7 @@ def energy_rows(figures: dict[str, Any]) -> list[Row]:
         ("Work of turning added mass", e["added_mass_work"]),
         *([("Work of the inertia of the water", e["inertia_work"])] if e["inertia_work"] else []),
         *([("Work of bending and bed", e["parts_work"])] if e["parts_work"] else []),
+        *([("Work of moved supports", e["support_work"])] if e["support_work"] else []),
         ("Lost to drag", -e["drag_dissipation"]),
         ("Lost in the twine", -e["twine_dissipation"]),
         ("Gone into motion", -e["kinetic"]),
