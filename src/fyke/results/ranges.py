@@ -163,7 +163,8 @@ def _solidity(faces: Faces, position: Array) -> Array:
     area = np.linalg.norm(faces.vector_area(position), axis=1)
     solid = faces.solidity * faces.area
     # Faces without area, in the tip of a cone, are no netting.
-    return np.divide(solid, np.maximum(area, solid), out=np.zeros_like(solid), where=solid > 0.0)
+    stretched = np.maximum(area, solid)
+    return np.asarray(np.divide(solid, stretched, out=np.zeros_like(solid), where=solid > 0.0))
 
 
 def _reach(system: System, states: Sequence[Moment]) -> Watch:
