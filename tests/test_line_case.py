@@ -143,6 +143,12 @@ def test_figures_of_lines_are_those_of_the_forces():
     assert line["max_tension"] == result.tension[-1].max()
 
 
+def test_lines_over_no_ground_are_warned_of():
+    (said,) = (one for one in parse_case(WHOLE.replace("[bed]\n", "")).warnings if "hang through" in one)
+    assert "20 m down" in said and "add [bed]" in said
+    assert not any("hang through" in one for one in parse_case(WHOLE).warnings)
+
+
 def test_check_tells_of_lines_and_the_bed():
     told = judge(parse_case(WHOLE))
     assert told["bed"]["depth"] == 20.0

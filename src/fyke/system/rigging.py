@@ -13,7 +13,7 @@ from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..case.tubes import CollarSpec, RingSpec
-from ..netting.joining import sewn
+from ..netting.joining import once, sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.references import knot_at, real_step, row_of
@@ -49,14 +49,20 @@ def _roped(net: Net | None, case: Case) -> Net | None:
     for rope in case.ropes:
         panel, side = _edge(net, rope.along)
         length = rope.length or _real_length(net, panel, side)
-        net = with_rope(net, panel.edge(side), twines[rope.twine], length=length, name=rope.name)
+        net = with_rope(net, once(panel.edge(side)), twines[rope.twine], length=length, name=rope.name)
     for part in case.tubulars:
         if part.along is not None:
             panel, side = _edge(net, part.along)
             twine = part.made(tubes).twine(part.tube)
             free = isinstance(part, CollarSpec)
             net = with_tubes(
-                net, panel.edge(side), twine, tubes=part.tubes, name=part.name, kind=part.kind, free=free
+                net,
+                once(panel.edge(side)),
+                twine,
+                tubes=part.tubes,
+                name=part.name,
+                kind=part.kind,
+                free=free,
             )
     return net
 

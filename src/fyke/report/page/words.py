@@ -15,6 +15,7 @@ from ...netting.net import Panel
 from ...results.audit import forces_on_knots
 from ...results.lines import line_words
 from ...results.parts import part_words
+from ...results.periods import period_words
 from ...results.water import water_words
 from ...solve.result import Result
 from ...system.system import System
@@ -68,7 +69,12 @@ def key_numbers(figures: dict[str, Any]) -> list[Row]:
         ("Knots and bars", f"{figures['knots']}, {figures['bars']}", figures["knots"]),
         *(
             (name[:1].upper() + name[1:], text, None)
-            for name, text in (*part_words(figures), *line_words(figures), *water_words(figures))
+            for name, text in (
+                *part_words(figures),
+                *period_words(figures),
+                *line_words(figures),
+                *water_words(figures),
+            )
         ),
     ]
 
