@@ -14,6 +14,8 @@ import pytest
 import fyke
 from fyke.case import parse_case
 from fyke.case.errors import CaseError
+from fyke.case.grouping import knots_of
+from fyke.forces.bed import footprint
 from fyke.forces.evaluate import evaluate
 from fyke.netting.joining import sewn
 from fyke.netting.measures import measure_net
@@ -25,6 +27,7 @@ from fyke.results.audit import audit
 from fyke.results.derive import summary
 from fyke.results.parts import by_part
 from fyke.results.volume import volume_history
+from fyke.solve import nested
 from fyke.system.system import State
 from fyke.water.laws.bars import Hoerner, Takagi
 from fyke.water.laws.knots import SchillerNaumann
@@ -258,6 +261,17 @@ def test_a_real_bar_of_a_grouped_panel_bears_what_it_bears_in_the_real_net():
     assert told[2][1:] == pytest.approx(told[0][1:], rel=0.003)
 
 
+@pytest.mark.parametrize(("mesh", "meshes"), [("diamond", (64, 48)), ("square", (90, 66))])
+def test_a_grouped_panel_may_begin_on_larger_meshes_still(monkeypatch, mesh, meshes):
+    net = panel(mesh, meshes, 2, hung=0.97)
+    system = fyke.make_system(net, current=(0.5, 0.0, 0.1))
+    plain = fyke.solve_static(system, tolerance=1e-10)
+    monkeypatch.setattr(nested, "LARGE", 400)
+    begun = fyke.solve_static(system, tolerance=1e-10)
+    assert plain.outcome.ok and begun.outcome.ok and "begun from" in begun.outcome.message
+    assert np.abs(begun.tension[-1] - plain.tension[-1]).max() < 1e-7
+
+
 def test_volume_and_drag_of_a_cage_converge_as_the_group_falls():
     """48 x 24 meshes round an axis, with weights: the difference to the real net falls with the group."""
     told = []
@@ -352,6 +366,37 @@ def test_totals_of_an_example_are_the_same_whatever_the_group(example):
         )
     assert told[0][:-1] == pytest.approx(told[1][:-1], rel=1e-9)
     assert told[0][-1] < told[1][-1]
+
+
+@pytest.mark.parametrize("file", sorted(EXAMPLES.glob("*.toml")), ids=lambda file: file.stem)
+def test_a_budget_counts_the_knots_that_are_laid(file):
+    case = fyke.load_case(file)
+    for piece in case.pieces:
+        netting = case.netting[piece.netting]
+        made = piece.lay(netting, case.twines[netting.twine])
+        assert knots_of(piece, netting, piece.group) == made.knot_count
+
+
+@pytest.mark.parametrize("bottom", ["true", "false"])
+@pytest.mark.parametrize(
+    ("mesh", "segments"), [("diamond", 1), ("square", 1), ("square", 3), ("hexagonal", 2)]
+)
+def test_a_budget_counts_boxes_and_segments(mesh, segments, bottom):
+    if mesh == "hexagonal":
+        bottom = "false"
+    old = [
+        ('"square"', f'"{mesh}"'),
+        ("[48, 24]", "[8, 12, 6]"),
+        ('kind = "cylinder"', f'kind = "box"\nbottom = {bottom}'),
+        ('diameter = "0.45 m"', "size = [0.2, 0.3, 0.15]"),
+        ('height = "0.71 m"', ""),
+        ("group = 1", "group = 2" if segments == 1 else ""),
+    ]
+    extra = f"segments = {segments}" + ('\nlong_bar = "30 mm"' if mesh == "hexagonal" else "")
+    case = case_of(old=old, netting=extra)
+    (piece,), netting = case.pieces, case.netting["main"]
+    made = piece.lay(netting, case.twines["main"])
+    assert knots_of(piece, netting, piece.group) == made.knot_count
 
 
 def case_of(*, old=(), netting="", grouping=""):
@@ -464,6 +509,17 @@ def test_energy_of_a_grouped_net_in_motion_is_accounted_for():
     energy = audit(system, result).energy
     assert energy.elastic > 0.05
     assert abs(energy.remainder) < 0.01 * energy.elastic
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+def test_what_lies_on_the_bed_has_the_area_of_the_real_netting_by_hand(mesh):
+    knots, bars = counts(mesh, (16, 8))
+    for group in (1, 2, 4):
+        area, diameter, _ = footprint(panel(mesh, (16, 8), group))
+        assert area.sum() == pytest.approx(
+            TWINE_DIAMETER * BAR * bars + np.pi / 4.0 * KNOT**2 * knots, rel=1e-12
+        )
+        assert diameter == pytest.approx(np.full(len(diameter), KNOT))
 
 
 def test_a_result_of_a_grouped_net_comes_back_from_its_file(tmp_path):

@@ -220,6 +220,14 @@ WRONG = {
         LINE.replace('length = "36 m"', 'pretension = "1 N"'),
         ("[[gear]] 2 pretension", "1 N of line 'warp'", "N or more at its end", "another pretension"),
     ),
+    "a pretension of a line on a line": (
+        LINE
+        + LINE.replace('"warp"', '"more"')
+        .replace('"cage.top[0]"', '"warp:5"')
+        .replace("length = ", "pretension = ")
+        .replace("36 m", "1 kN"),
+        ("[[gear]] 3 pretension", "1000 N of line 'more'", "between places and netting", "give length"),
+    ),
     "a rim that is not there": (
         MOORINGS.replace('"cage.top"', '"cage.tip"'),
         ("[[gear]] 2 around", '"cage.tip" of moorings', '"NAME.EDGE"', 'did you mean "cage.top"?'),
@@ -295,3 +303,21 @@ def test_explicit_steppers_are_refused_with_a_bed():
     solve = '[solve]\nkind = "dynamic"\nduration = 1.0\nstepper = "verner"\n'
     with pytest.raises(CaseError, match="which explicit steps do not know"):
         parse_case(HEAD + CAGE + LINE + solve)
+
+
+def test_pictures_show_the_sea_bed_that_lines_come_down_to(tmp_path):
+    """Not where the bed is far below, and not without one."""
+    from fyke.report.figures import equilibrium_shape
+    from fyke.report.ground import bed_under
+
+    text = (HEAD + LINE).replace('"cage.top[0]"', "[0.0, 0.0, -1.0]").replace('"36 m"', "48")
+    for change, level in (
+        (("", ""), -20.0),
+        (("[bed]\n", ""), None),
+        (("depth = 20.0", "depth = 40.0"), None),
+    ):
+        case, net = built(text.replace(*change, 1))
+        result = solve_static(build_system(net, case), tolerance=1e-3)
+        assert bed_under(result) == level
+        shown = {patch.get_gid() for ax in equilibrium_shape(result).axes for patch in ax.patches}
+        assert ("sea bed" in shown) == (level is not None)

@@ -134,8 +134,8 @@ def footprint(net: Net) -> tuple[Array, Array, Array]:
     """
     n, ends = net.knot_count, net.bars
     area, diameter, radius = np.zeros(n), net.knot_diameter.copy(), np.zeros(n)
-    np.add.at(area, ends, (0.5 * net.bar_diameter * net.rest_length)[:, None])
-    area += np.pi / 4.0 * net.knot_diameter**2
+    np.add.at(area, ends, (0.5 * net.bar_diameter * net.bar_multiple * net.rest_length)[:, None])
+    area += np.pi / 4.0 * net.knot_multiple * net.knot_diameter**2
     np.maximum.at(diameter, ends, net.bar_diameter[:, None])
     for one in net.bodies:
         np.add.at(area, one.knots, np.pi / 4.0 * one.diameter**2)
