@@ -14,10 +14,10 @@ from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
-from .round_check import hexagons_round, ratio_pair, round_findings
 from .rows import in_row_findings, length_of, rows_of
 from .seams_check import joined_names, seam_findings
 from .shapes import RoundSpec
+from .shapes_check import hexagons_round, one_ratio, round_findings
 from .tapered import TaperedSpec
 from .tapered_check import cutting
 from .tube_check import tubular_findings
@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
 _ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
+_LEAST_EDGE = 1e-6  # m, that a rope can follow; a shorter one is a slip of the pen
 _FLAT = ("panel", "trapezoid", "triangle")
 
 
@@ -146,7 +147,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
         if isinstance(piece, FlatSpec | BoxSpec):
-            yield from ratio_pair(path, ratio, netting)
+            yield from one_ratio(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
         if sheet.strain(netting) > LARGEST_STRAIN:
@@ -220,8 +221,8 @@ def _rope(
             yield one
             continue
         count, built = one
-        if count == 1:
-            yield _one_knot(path, called, rope.along)
+        if count == 1 or built < _LEAST_EDGE:
+            yield _no_way(path, called, rope.along, count, built)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -251,13 +252,19 @@ def _way(
     for one in edge_named(path, called, part.along, parts, sheets):
         if len(one) == 4:
             yield one
-        elif one[0] == 1:
-            yield _one_knot(path, called, part.along)
+        elif one[0] == 1 or one[1] < _LEAST_EDGE:
+            yield _no_way(path, called, part.along, *one)
 
 
-def _one_knot(path: Path, called: str, along: str) -> Finding:
-    found = f"{written(along)} of {called}, one knot"
-    return (*path, "along"), found, "an edge of several knots", "name another edge"
+def _no_way(path: Path, called: str, along: str, count: int, built: float) -> Finding:
+    if count == 1:
+        found = f"{written(along)} of {called}, one knot"
+        return (*path, "along"), found, "an edge of several knots", "name another edge"
+    found, allowed = (
+        f"{written(along)} of {called}, {built:g} m long",
+        f"an edge of {_LEAST_EDGE:g} m or more",
+    )
+    return (*path, "along"), found, allowed, "check the units of the netting that it belongs to"
 
 
 def _hung(

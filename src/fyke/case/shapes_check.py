@@ -1,4 +1,4 @@
-"""What shapes round an axis must have to close, and hanging ratios to make bars taut."""
+"""What must hold of netting that closes round."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _closing_ratio(
         cure = "0.5 to 0.8 is common for E1; E2 = sqrt(1 - E1^2) just straightens the bars of diamonds"
         yield key, f"{written(list(ratio))} of {piece.called}", allowed, cure
     elif isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        yield from ratio_pair(path, ratio, netting)
+        yield from one_ratio(path, ratio, netting)
     elif isinstance(piece, ConeSpec) and piece.rims(netting) is None:
         around, slant = piece.flat_size(netting)
         found = f"{written(ratio)}: the netting of {piece.called} is {slant:.4g} m from rim to tip"
@@ -86,7 +86,7 @@ def _closing_ratio(
         yield key, found, allowed, "make E1 smaller, or give it fewer meshes around or more along the height"
 
 
-def ratio_pair(path: Path, ratio: float, netting: NettingSpec) -> Iterator[Finding]:
+def one_ratio(path: Path, ratio: float, netting: NettingSpec) -> Iterator[Finding]:
     """What is wrong with one hanging ratio where no other one makes every bar just taut."""
     if isinstance(netting.mesh, Hexagon):
         long = netting.mesh.long_bar
