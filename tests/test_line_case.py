@@ -220,6 +220,14 @@ WRONG = {
         LINE.replace('length = "36 m"', 'pretension = "1 N"'),
         ("[[gear]] 2 pretension", "1 N of line 'warp'", "N or more at its end", "another pretension"),
     ),
+    "a pretension of a line on a line": (
+        LINE
+        + LINE.replace('"warp"', '"more"')
+        .replace('"cage.top[0]"', '"warp:5"')
+        .replace("length = ", "pretension = ")
+        .replace("36 m", "1 kN"),
+        ("[[gear]] 3 pretension", "1000 N of line 'more'", "between places and netting", "give length"),
+    ),
     "a rim that is not there": (
         MOORINGS.replace('"cage.top"', '"cage.tip"'),
         ("[[gear]] 2 around", '"cage.tip" of moorings', '"NAME.EDGE"', 'did you mean "cage.top"?'),

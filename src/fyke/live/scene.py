@@ -70,6 +70,7 @@ class Scene:
             section_size=self._size / 4.0,
             plane_color=sand,
             plane_opacity=1.0,
+            fade_distance=10.0 * self._size,
             position=(x, y, level),
         )
 
