@@ -232,6 +232,14 @@ WRONG = {
         MOORINGS.replace('"cage.top"', '"cage.tip"'),
         ("[[gear]] 2 around", '"cage.tip" of moorings', '"NAME.EDGE"', 'did you mean "cage.top"?'),
     ),
+    "around themselves": (
+        MOORINGS.replace('"cage.top"', '"moor"'),
+        ("[[gear]] 2 around", '"moor" of moorings', "name of a ring or rope", "did you mean"),
+    ),
+    "to one of several": (
+        MOORINGS + LINE.replace("cage.top[0]", "moor:2"),
+        ("[[gear]] 3 to", '"moor:2" of line', '"moor 1"', "did you mean"),
+    ),
     "more lines than knots": (
         MOORINGS.replace("count = 4", "count = 40"),
         ("[[gear]] 2 count", "40 lines", "at most the 16 knots", "fewer"),
