@@ -232,6 +232,14 @@ WRONG = {
         MOORINGS.replace('"cage.top"', '"cage.tip"'),
         ("[[gear]] 2 around", '"cage.tip" of moorings', '"NAME.EDGE"', 'did you mean "cage.top"?'),
     ),
+    "around themselves": (
+        MOORINGS.replace('"cage.top"', '"moor"'),
+        ("[[gear]] 2 around", '"moor" of moorings', "name of a ring or rope", "did you mean"),
+    ),
+    "to one of several": (
+        MOORINGS + LINE.replace("cage.top[0]", "moor:2"),
+        ("[[gear]] 3 to", '"moor:2" of line', '"moor 1"', "did you mean"),
+    ),
     "more lines than knots": (
         MOORINGS.replace("count = 4", "count = 40"),
         ("[[gear]] 2 count", "40 lines", "at most the 16 knots", "fewer"),
@@ -321,3 +329,16 @@ def test_pictures_show_the_sea_bed_that_lines_come_down_to(tmp_path):
         assert bed_under(result) == level
         shown = {patch.get_gid() for ax in equilibrium_shape(result).axes for patch in ax.patches}
         assert ("sea bed" in shown) == (level is not None)
+
+
+def test_the_page_has_a_row_for_each_line():
+    from fyke.report.page.lines import LINE_COLUMNS, line_table
+
+    case, net = built(WHOLE)
+    system = build_system(net, case)
+    figures = line_figures(system, solve_static(system, tolerance=1e-3))
+    table = line_table(figures)
+    assert [row[0][0] for row in table] == ["warp", "moor 1", "moor 2", "moor 3", "moor 4"]
+    assert all(len(row) == len(LINE_COLUMNS) for row in table)
+    assert table[1][2][0].endswith(", anchor") and table[1][2][1] == figures["lines"][1]["tension_from"]
+    assert line_table({}) == []

@@ -37,7 +37,9 @@ def line_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             yield ("chain", name), f"{written(name)}, which is also a twine", allowed, "choose another name"
     there = twines + [name for name, _ in parts.items("chain")]
     sheets, waiting = sheets_by_name(parts), dict[int, set[str]]()
-    rows = rows_of(parts, sheets)
+    # Moorings are several lines: one of them is "NAME 1".
+    many = {parts.name_of(index) for index, line in parts.lines.items() if isinstance(line, MooringsSpec)}
+    rows = {name: last for name, last in rows_of(parts, sheets).items() if name not in many}
     for index, keys in parts.gear_tables():
         for number, piece in enumerate(_pieces(keys)):
             yield from reference(("gear", index, "pieces", number, "twine"), piece, "twine", there)

@@ -53,7 +53,7 @@ from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.hanging import hanging
 from ..system.system import State, System
-from .accounts import account_rows
+from .account import account_rows
 from .folder import (
     BARS,
     CHECKPOINT,

@@ -1,4 +1,4 @@
-"""The accounts of forces and energy that a run prints."""
+"""What `fyke run` shows of the accounts: forces and, in motion, energies against each other."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .show import quantity
 
 
 def account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    """Say what the accounts of a summary hold, in names and texts for a reader."""
+    """Return names and texts of what is out of balance, and in motion of where the energy went, from a summary."""
     accounts = figures["audit"]
     energy, knot = accounts["energy"], accounts["unbalanced_knot"]
     where = "" if knot is None else f", at knot {knot}"
