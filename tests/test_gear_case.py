@@ -329,13 +329,13 @@ SPOILT = {
         shape("cylinder", "diameter = 0.5", "height = 0.3", 'fixed = "corners"'),
         ("[[gear]] 1 fixed", '"corners"', '"top" or "edges" or "none"', "choose"),
     ),
-    "a kind that is not there": (
+    "a kind nearly there": (
         WHOLE.replace('kind = "rope"', 'kind = "ropes"'),
         ("[[gear]] 2 kind", '"ropes"', '"panel" or "trapezoid"', 'did you mean "rope"?'),
     ),
-    "a collar": (
-        WHOLE.replace('kind = "rope"', 'kind = "collar"'),
-        ("[[gear]] 2 kind", '"collar"', '"sinkers"', "choose"),
+    "a kind to choose": (
+        WHOLE.replace('kind = "rope"', 'kind = "buoy"'),
+        ("[[gear]] 2 kind", '"buoy"', '"sinkers"', "choose"),
     ),
     "a key of another kind": (
         WHOLE.replace('twine = "line"', 'twine = "line"\nbuoyancy = "3 N"'),
@@ -485,10 +485,15 @@ def test_the_schema_knows_every_kind():
         "trapezoid",
         "triangle",
         "box",
+        "seam",
         "cylinder",
         "cone",
         "frustum",
         "rope",
+        "line",
+        "moorings",
+        "ring",
+        "collar",
         "sinkers",
         "floats",
     }

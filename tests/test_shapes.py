@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -9,14 +10,19 @@ import pytest
 
 import fyke
 from fyke.case import CaseError, parse_case
+from fyke.cli.check import check_case
+from fyke.forces.screens import Screens
 from fyke.netting.cutting import Taper, cuts_of, lost, rate_of, repeated, spread
 from fyke.netting.faces import faces_of
 from fyke.netting.hexagon import Hexagon
+from fyke.netting.joining import stitches
 from fyke.netting.measures import measure_panel
 from fyke.netting.panel import panel
-from fyke.netting.shapes import box, cage, frustum
+from fyke.netting.shapes import bag, box, cage, frustum
 from fyke.netting.sheet import Netting, sheet
+from fyke.netting.together import together
 from fyke.results.volume import enclosed_volume
+from fyke.water.laws.panels import Aarsnes
 
 BAR = 0.05
 TWINE = fyke.Twine("n", 1140.0, 2e-3, fyke.LinearLaw(1e9))
@@ -262,6 +268,40 @@ def test_symmetric_gear_stays_symmetric(name, net):
     assert mirrored(net, result) < 1e-9 * np.ptp(net.positions, axis=0).max()
 
 
+@pytest.mark.parametrize(("high", "low", "towards"), [(0.6, 0.6, "cylinder"), (0.6, 0.0, "cone")])
+def test_a_frustum_comes_to_its_neighbours_as_its_rims_do(high, low, towards):
+    """Held by both rims in a current: tensions of a frustum go to those of the limit in proportion to its diameter."""
+    found = {}
+    for more in (0.0, 0.02, 0.01, 0.005):
+        sign = -1.0 if towards == "cylinder" else 1.0
+        rims = (low + sign * more, high)
+        net = frustum(
+            made_of("diamond"), (12, 4), diameters=rims, height=0.36, centre=(0, 0, -0.2), fixed="edges"
+        )
+        result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)), tolerance=1e-10)
+        assert result.outcome.ok
+        assert net.panels[0].shape == (towards if more == 0.0 else "frustum")
+        found[more] = result.tension[-1]
+    away = [np.linalg.norm(found[more] - found[0.0]) for more in (0.02, 0.01, 0.005)]
+    assert away[0] > away[1] > away[2]
+    assert away[2] / away[1] == pytest.approx(0.5, abs=0.05)
+    assert away[2] < 0.05 * np.linalg.norm(found[0.0])
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.9])
+def test_drag_of_a_box_of_screens_is_that_of_its_panels(speed):
+    """Front and back face on, sides and bottom edge on: rho/2 u^2 (2 A C_D(0) + A_along C_D(90 deg)), as Aarsnes."""
+    net, (x, y, z) = open_box("square")
+    faces, load = faces_of(net), np.zeros_like(net.positions)
+    screens = Screens.of(faces, Aarsnes(), 1000.0, 1e-6)
+    screens.add_load(net.positions, np.tile([speed, 0.0, 0.0], (net.knot_count, 1)), load)
+    solid = 2.0 * 0.002 / BAR - (0.002 / BAR) ** 2
+    assert faces.solidity == pytest.approx(np.full(faces.count, solid))
+    face_on = solid - 1.24 * solid**2 + 13.7 * solid**3
+    drag = 0.5 * 1000.0 * speed**2 * (2.0 * y * z * face_on + 0.04 * (2.0 * x * z + x * y))
+    assert load.sum(axis=0) == pytest.approx([drag, 0.0, 0.0], rel=1e-9, abs=1e-12)
+
+
 HEAD = """schema = 1
 [current]
 velocity = [0.3, 0.0, 0.0]
@@ -460,6 +500,323 @@ SPOILT |= {
         box_case("meshes = [4, 3, 5]", "hanging_ratio = 0.7")
         + '[[gear]]\nkind = "rope"\nname = "r"\ntwine = "main"\nalong = "a.left"\n',
         ("[[gear]] 2 along", "a.left", "corner4; it closes round", "did you mean"),
+    ),
+}
+
+
+def four_walls(*seams):
+    """Four panels and a floor, as a case; the walls' edges lie along the upright corners of a box."""
+    side, deep = 4 * 0.1 * 0.7, float(4 * 0.1 * np.sqrt(0.51))
+    out = [HEAD]
+    for name, normal, centre in (
+        ("east", (1, 0, 0), (side / 2, 0)),
+        ("north", (0, 1, 0), (0, side / 2)),
+        ("west", (-1, 0, 0), (-side / 2, 0)),
+        ("south", (0, -1, 0), (0, -side / 2)),
+    ):
+        place = [*centre, -0.2 - deep / 2]
+        keys = (
+            f'name = "{name}"',
+            f"normal = {[float(k) for k in normal]}",
+            f"centre = {place}",
+            'fixed = "top"',
+        )
+        out += [
+            "[[gear]]",
+            'kind = "panel"',
+            'netting = "main"',
+            "meshes = [4, 4]",
+            "hanging_ratio = 0.7",
+            *keys,
+        ]
+    floor = (
+        'name = "floor"',
+        "normal = [0.0, 0.0, -1.0]",
+        f"centre = [0.0, 0.0, {-0.2 - deep}]",
+        'fixed = "none"',
+    )
+    out += [
+        "[[gear]]",
+        'kind = "panel"',
+        'netting = "main"',
+        "meshes = [4, 4]",
+        f"size = [{side}, {side}]",
+        *floor,
+    ]
+    for k, (one, other) in enumerate(seams):
+        out += ["[[gear]]", 'kind = "seam"', f'name = "s{k}"', f'join = ["{one}", "{other}"]']
+    return "\n".join([*out, ""])
+
+
+ALL_ROUND = (
+    ("east.right", "north.left"),
+    ("north.right", "west.left"),
+    ("west.right", "south.left"),
+    ("south.right", "east.left"),
+)
+# The width of a panel that lies flat runs along y; that of this one's height, normal down, along x.
+BELOW = (("floor.top", "east.bottom"), ("north.bottom", "floor.right"), ("floor.bottom", "west.bottom"))
+
+
+def test_panels_sewn_together_are_the_box_that_is_made_at_once():
+    """The same knots and bars in another order, so that both hang alike in the same current."""
+    case = parse_case(four_walls(*ALL_ROUND, *BELOW, ("south.bottom", "floor.left")))
+    assert not any("seam" in one for one in case.warnings)
+    sewn_up = fyke.build_net(case)
+    side, deep = 4 * 0.1 * 0.7, float(4 * 0.1 * np.sqrt(0.51))
+    whole = box(made_of("diamond"), (4, 4, 4), size=(side, side, deep), top=(0.0, 0.0, -0.2))
+    assert (sewn_up.knot_count, sewn_up.bar_count) == (whole.knot_count, whole.bar_count)
+    twin = [int(np.abs(sewn_up.positions - place).sum(axis=1).argmin()) for place in whole.positions]
+    assert sorted(twin) == list(range(whole.knot_count))
+    assert sewn_up.positions[twin] == pytest.approx(whole.positions, abs=1e-12)
+    bars = {tuple(sorted(bar)) for bar in np.array(twin)[whole.bars].tolist()}
+    assert bars == {tuple(sorted(bar)) for bar in sewn_up.bars.tolist()}
+    assert np.array_equal(sewn_up.fixed[twin], whole.fixed)
+    shapes = []
+    for net in (whole, sewn_up):
+        heavy = replace(net, load=np.tile([0.0, 0.0, -0.05], (net.knot_count, 1)), twines=whole.twines)
+        system = fyke.make_system(heavy, current=(0.2, 0.0, 0.0))
+        shapes.append(fyke.solve_static(system, tolerance=1e-9).position[-1])
+    assert shapes[1][twin] == pytest.approx(shapes[0], abs=1e-7)
+
+
+def seam_case(count, take_up, *, gap=0.0):
+    lines = f"""
+[[gear]]
+kind = "cylinder"
+name = "upper"
+netting = "main"
+meshes = [24, 4]
+diameter = 0.3
+height = 0.3
+top = [0.0, 0.0, -0.2]
+[[gear]]
+kind = "cylinder"
+name = "lower"
+netting = "main"
+meshes = [{count}, 4]
+diameter = 0.3
+height = 0.3
+top = [0.0, 0.0, {-0.5 - gap}]
+fixed = "none"
+[[gear]]
+kind = "seam"
+name = "s"
+join = ["upper.bottom", "lower.top"]
+"""
+    return HEAD + lines + (f"take_up = {take_up}\n" if take_up else "")
+
+
+@pytest.mark.parametrize(
+    ("count", "take_up"), [(24, None), (16, "1.5"), (16, '"3:2"'), (18, '"4:3"'), (48, "0.5")]
+)
+def test_a_seam_takes_meshes_up_evenly(count, take_up):
+    net = fyke.build_net(parse_case(seam_case(count, take_up)))
+    upper, lower = net.panels
+    few, many = sorted((24, count))
+    rim = upper.edge("bottom")[:-1] if count < 24 else lower.edge("top")[:-1]
+    knots, times = np.unique(rim, return_counts=True)
+    assert len(knots) == few
+    assert times.max() - times.min() <= 1
+    assert times.sum() == many
+    assert set(upper.edge("bottom")) == set(lower.edge("top"))
+    assert net.knot_count == 24 * 9 + count * 9 - many
+    ends = np.bincount(net.bars.ravel())
+    assert ends[knots].sum() == 2 * 24 + 2 * count
+
+
+def test_check_tells_seams_and_cuts(tmp_path, capsys):
+    file = tmp_path / "c.toml"
+    wing = shape("trapezoid", "meshes = [24, 10]", 'cut = "1N2B"', "hanging_ratio = 0.6").removeprefix(HEAD)
+    file.write_text(seam_case(16, "1.5") + wing)
+    assert check_case(file, json=True) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["seams"] == [
+        {"name": "s", "join": ["upper.bottom", "lower.top"], "knots": [24, 16], "take_up": 1.5}
+    ]
+    assert [one["ends"] for one in told["panels"]] == [None, None, [24, 14]]
+    check_case(file, json=False)
+    shown = capsys.readouterr().out
+    assert "seam s" in shown
+    assert "24 above, 14 below, 10 high" in shown
+
+
+def test_edges_that_lie_apart_are_told_and_moved_to_the_first():
+    case = parse_case(seam_case(24, None, gap=0.3))
+    (told,) = [one for one in case.warnings if "seam 's'" in one]
+    assert "0.3 m apart" in told
+    net = fyke.build_net(case)
+    assert net.positions[net.panels[1].edge("top"), 2] == pytest.approx(np.full(25, -0.5))
+    assert not any("seam" in one for one in parse_case(seam_case(24, None, gap=0.05)).warnings)
+
+
+def test_a_rope_along_a_gathered_edge_passes_every_knot_once():
+    rope = '[[gear]]\nkind = "rope"\nname = "r"\ntwine = "main"\nalong = "upper.bottom"\n'
+    net = fyke.build_net(parse_case(seam_case(16, "1.5") + rope))
+    assert len(net.ropes[0].bars) == 16
+    assert set(net.ropes[0].knots) == set(net.panels[1].edge("top"))
+
+
+def test_a_turned_rim_is_joined_where_it_lies():
+    """A cylinder that was turned by three meshes loses nothing: its seam begins three knots further on."""
+    upper = frustum(made_of("diamond"), (12, 2), diameters=(0.5, 0.5), height=0.2, name="u")
+    lower = frustum(
+        made_of("diamond"), (12, 2), diameters=(0.5, 0.5), height=0.2, centre=(0, 0, -0.2), name="l"
+    )
+    turn = np.pi / 2.0
+    matrix = np.array(
+        [[np.cos(turn), -np.sin(turn), 0.0], [np.sin(turn), np.cos(turn), 0.0], [0.0, 0.0, 1.0]]
+    )
+    for way in (1.0, -1.0):
+        other = replace(lower, positions=lower.positions * [1.0, way, 1.0] @ matrix.T)
+        net = together([upper, other])
+        stays, goes = stitches(net, ("u", "bottom"), ("l", "top"))
+        assert net.positions[stays] == pytest.approx(net.positions[goes], abs=1e-12)
+
+
+@pytest.mark.parametrize("panels", [2, 3, 4])
+@pytest.mark.parametrize("rate", ["1N2B", "1N1B", "1T2B"])
+def test_a_bag_of_panels_closes(panels, rate):
+    """Seams once, two bars or more at every knot, both rims with their meshes, closed faces."""
+    cuts = repeated(cuts_of(rate), 6, "diamond")
+    wide = 2 * lost(cuts, "diamond") + 3
+    rims = (3 * panels * 0.06 / np.pi, wide * panels * 0.06 / np.pi)
+    net = bag(made_of("diamond"), (wide, 6), panels=panels, cuts=cuts, diameters=rims, height=0.4)
+    assert len(np.unique(net.positions.round(9), axis=0)) == net.knot_count
+    assert np.bincount(net.bars.ravel()).min() >= 2
+    for end, count in (("top", wide), ("bottom", 3)):
+        assert len(np.unique(np.concatenate([one.edge(end) for one in net.panels]))) == panels * count
+    vectors = faces_of(net).vector_area(net.positions)
+    assert np.abs(vectors.sum(axis=0)[:2]).max() < 1e-2 * np.abs(vectors).sum()
+    assert enclosed_volume(net, net.positions) > 0.0
+    mirror = bag(made_of("diamond"), (wide, 6), panels=panels, cuts=cuts, diameters=rims[::-1], height=0.4)
+    assert len(np.unique(np.concatenate([one.edge("bottom") for one in mirror.panels]))) == panels * wide
+
+
+def line_case(*keys, twine='diameter = "10 mm"\nlead = "150 g/m"'):
+    rope = f'[twine.line]\nmaterial = "PES"\n{twine}\n'
+    panel_ = shape("panel", "meshes = [10, 4]", "hanging_ratio = 0.6", 'fixed = "top"').removeprefix(HEAD)
+    foot = '[[gear]]\nkind = "rope"\nname = "foot"\ntwine = "line"\nalong = "a.bottom"\n'
+    return "\n".join([HEAD + rope + panel_ + foot, *keys, ""])
+
+
+@pytest.mark.parametrize(
+    ("twine", "fibre"),
+    [
+        ('diameter = "10 mm"\nlead = "150 g/m"', (np.pi / 4 * 0.01**2 - 0.15 / 11340) * 1380),
+        ('diameter = "10 mm"\nrtex = "50 g/m"\nlead = "150 g/m"', 0.05),
+        ('rtex = "50 g/m"\nlead = "150 g/m"', 0.05),
+    ],
+)
+def test_a_lead_line_weighs_its_fibre_and_its_lead(twine, fibre):
+    """In water of 1000 kg/m3: m g (1 - 1000 / density) of either, on the unloaded length of the rope."""
+    case, plain = (
+        parse_case(line_case(twine=twine)),
+        parse_case(line_case().split('[[gear]]\nkind = "rope"')[0]),
+    )
+    heavy, light = (fyke.build_system(fyke.build_net(one), one).weight_in_water for one in (case, plain))
+    length = 10 * 0.1 * 0.6
+    by_hand = 9.81 * length * (fibre * (1.0 - 1000.0 / 1380.0) + 0.15 * (1.0 - 1000.0 / 11340.0))
+    assert heavy - light == pytest.approx(by_hand, rel=1e-10)
+    assert not any("'line' floats" in one for one in case.warnings)
+    solid = fibre / 1380.0 + 0.15 / 11340.0
+    if "diameter" not in twine:
+        area = np.pi / 4.0 * case.twine["line"].diameter ** 2
+        assert area == pytest.approx(fibre / 1380.0 / 0.65 + 0.15 / 11340.0, rel=1e-12)
+        assert area > solid
+
+
+def floats(*keys):
+    return "\n".join(['[[gear]]\nkind = "floats"\nname = "f"\nbuoyancy = "1 N"\ndensity = 200', *keys])
+
+
+@pytest.mark.parametrize(("spacing", "count"), [(0.06, 11), (0.12, 6), (0.2, 4), (0.5, 2), (2.0, 2)])
+def test_floats_along_a_line_keep_their_spacing(spacing, count):
+    """An edge of 0.6 m: one at either end, and as near to the spacing as whole numbers and knots allow."""
+    case = parse_case(line_case(floats('along = "a.top"', f"spacing = {spacing}")))
+    net = fyke.build_net(case)
+    (bodies,) = net.bodies
+    assert len(bodies.knots) == count
+    assert {net.panels[0].edge("top")[0], net.panels[0].edge("top")[-1]} <= set(bodies.knots.tolist())
+    steps = np.linalg.norm(np.diff(net.positions[bodies.knots], axis=0), axis=1)
+    assert np.ptp(steps) <= 0.06 + 1e-12
+
+
+def test_sinkers_round_a_rim_keep_their_spacing():
+    sinkers = (
+        '[[gear]]\nkind = "sinkers"\nalong = "lower.bottom"\nspacing = 0.2\nweight = 1\ndensity = 7850\n'
+    )
+    net = fyke.build_net(parse_case(seam_case(24, None) + sinkers))
+    assert len(net.bodies[0].knots) == round(24 * 0.3 * np.sin(np.pi / 24) / 0.2)
+
+
+JOINED = four_walls(*ALL_ROUND, *BELOW)
+SPOILT |= {
+    "counts that do not match": (
+        seam_case(20, None),
+        (
+            "[[gear]] 3 join",
+            '24 meshes along "upper.bottom" and 20 along "lower.top"',
+            "take_up",
+            "take_up = 1.2",
+        ),
+    ),
+    "take-up that does not match": (
+        seam_case(16, "2.0"),
+        ("[[gear]] 3 take_up", "2 with 24 meshes", "1.5, as the counts are", "32 meshes"),
+    ),
+    "take-up in words": (
+        seam_case(16, '"half"'),
+        ("[[gear]] 3 take_up", "half", "1.5 or 3:2", "take_up = 1.5"),
+    ),
+    "seam of an unknown part": (
+        seam_case(24, None).replace("lower.top", "loer.top"),
+        ("[[gear]] 3 join, value 2", '"loer.top"', '"upper", "lower"', '"lower.top"'),
+    ),
+    "seam of an unknown edge": (
+        seam_case(24, None).replace('"lower.top"', '"lower.left"'),
+        ("[[gear]] 3 join, value 2", '"lower.left"', "top or bottom", "did you mean"),
+    ),
+    "seam of an edge to itself": (
+        JOINED.replace('"floor.bottom", "west.bottom"', '"floor.bottom", "floor.bottom"'),
+        ("join", "floor.bottom", "two different edges", "name the edge"),
+    ),
+    "seam of a rim to a side": (
+        JOINED + seam_case(24, None).removeprefix(HEAD).replace('"upper.bottom"', '"floor.left"'),
+        ("join", "one closes round", "two edges that close round", "join the sides"),
+    ),
+    "floats too near": (
+        line_case(floats('along = "a.top"', "spacing = 0.01")),
+        ("[[gear]] 3 spacing", "61 of floats 'f'", "at most the 11 knots", "fewer"),
+    ),
+    "spacing and count": (
+        line_case(floats('along = "a.top"', "spacing = 0.1", "count = 3")),
+        ("[[gear]] 3 spacing", "spacing beside count", "one of the two", "leave count"),
+    ),
+    "spacing of labels": (
+        line_case(floats('at = ["a:0-0"]', "spacing = 0.1")),
+        ("[[gear]] 3 spacing", "spacing beside at", "one of the two", "leave at"),
+    ),
+    "more lead than rope": (
+        line_case(twine='diameter = "4 mm"\nlead = "150 g/m"'),
+        ("[twine.line] lead", "150 g/m of lead in a diameter of 4 mm", "above 4.104 mm", "units"),
+    ),
+    "seam of a side that became a ring": (
+        four_walls(("floor.top", "north.bottom"), ("east.top", "east.bottom"), ("north.right", "east.left")),
+        (
+            "[[gear]] 8 join",
+            '"north.right" and "east.left" of seam \'s2\'',
+            "knots can become one",
+            "joined already",
+        ),
+    ),
+    "rope along nothing": (
+        line_case().replace("hanging_ratio = 0.6", "hanging_ratio = 1e-308"),
+        ("[[gear]] 2 along", "e-308 m long", "1e-06 m or more", "units"),
+    ),
+    "held by no seam": (
+        four_walls(*ALL_ROUND),
+        ("[[gear]] 5 fixed", "none", "for a static case", "nothing would hold it"),
     ),
 }
 

@@ -85,7 +85,15 @@ class BoxSpec(Piece):
         """Build it of this netting, whose twine this is."""
         knot = netting.knot_diameter or 0.0
         return box(
-            Netting(twine, netting.mesh, netting.bar_length, knot, netting.knot_density, netting.segments),
+            Netting(
+                twine,
+                netting.mesh,
+                netting.bar_length,
+                knot,
+                netting.knot_density,
+                netting.segments,
+                self.group,
+            ),
             self.meshes,
             size=self.sized_for(netting),
             bottom=self.bottom,

@@ -15,7 +15,8 @@ from .written import assignment, written
 
 _FEW = 6  # words that are worth telling twice
 
-LISTED = {"gear": "panel", "load_case": "load case"}  # tables of which there may be several, and what each is
+# Tables of which there may be several, and what each is.
+LISTED = {"gear": "panel", "load_case": "load case", "motion": "motion"}
 
 Words = tuple[str, str, str]  # found, allowed, cure
 

@@ -19,6 +19,7 @@ from ..netting.twine import Twine
 from .fields import Density, Direction, HangingRatio, Length, MeshCount, Name, Point, Table, whole
 
 MOST_SEGMENTS = 50
+MOST_GROUPED = 1000  # real meshes along an axis that one stands for
 LARGEST_STRAIN = 0.2  # of unloaded bars in the net as built
 
 
@@ -47,6 +48,11 @@ class NettingSpec(Table):
     )
     segments: Annotated[int, *whole(1, MOST_SEGMENTS)] = Field(
         default=1, description="straight pieces that a bar is cut into, so that it can bow", examples=[2]
+    )
+    group: Annotated[int, *whole(1, MOST_GROUPED)] | None = Field(
+        default=None,
+        description="one mesh is laid for so many real ones along width and along height; 1 by default",
+        examples=[4],
     )
 
     @property
@@ -195,6 +201,23 @@ class Piece(Part):
     """Gear that is netting."""
 
     netting: Name = Field(description="name of a [netting.NAME]", examples=["main"])
+    given_group: Annotated[int, *whole(1, MOST_GROUPED)] | None = Field(
+        default=None,
+        alias="group",
+        description="one mesh is laid for so many real ones along width and along height; that of the netting by "
+        "default",
+        examples=[4],
+    )
+    _group: int = PrivateAttr(default=1)
+
+    @property
+    def group(self) -> int:
+        """Real meshes along an axis that one mesh is laid for."""
+        return self._group
+
+    def gather(self, group: int) -> None:
+        """Fill in the group, once, when the whole case is known."""
+        self._group = group
 
     def settle(self, netting: NettingSpec) -> None:
         """Fill in what follows from the netting, once, when the whole case is known."""
@@ -292,6 +315,7 @@ class FlatSpec(Piece):
             knot_diameter=netting.knot_diameter or 0.0,
             knot_density=netting.knot_density,
             segments=netting.segments,
+            group=self.group,
             centre=self.centre,
             normal=self.normal,
             taper=self.taper(netting),

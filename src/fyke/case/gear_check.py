@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from math import inf, pi
 from typing import TYPE_CHECKING, Any, cast
 
-from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
+from ..netting.references import IN_ROW
+from .bodies_check import body_findings
 from .box import BoxSpec
 from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
-from .rigging import BodiesSpec, RopeSpec, SinkersSpec
-from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
+from .rigging import BodiesSpec, RopeSpec
+from .rows import in_row_findings, length_of, rows_of
+from .seams_check import joined_names, seam_findings
+from .shapes import RoundSpec
+from .shapes_check import hexagons_round, one_ratio, round_findings
 from .tapered import TaperedSpec
 from .tapered_check import cutting
+from .tube_check import tubular_findings
+from .tubes import TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -24,9 +29,9 @@ if TYPE_CHECKING:
     from .schema import Water
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
-_LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
+_ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
+_LEAST_EDGE = 1e-6  # m, that a rope can follow; a shorter one is a slip of the pen
 _FLAT = ("panel", "trapezoid", "triangle")
-_KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
 
 
 def reference(path: Path, keys: dict[str, Any], table: str, there: list[str]) -> Iterator[Finding]:
@@ -44,8 +49,9 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     """Everything that is wrong between the keys and parts of the gear; water: None where it is wrong itself."""
     yield from _names(parts)
     for index, keys in parts.gear_tables():
-        for table in ("netting", "twine"):
+        for table in ("netting", "twine", "tube"):
             there = [name for name, _ in parts.items(table)]
+            there += [name for name, _ in parts.items("chain") if table == "twine"]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
         if keys.get("kind") in (*_FLAT, "box", None):
@@ -58,15 +64,19 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             if wrong_cuts:
                 continue
         if isinstance(piece, BoxSpec):
-            yield from _hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
+            yield from hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
         if isinstance(piece, RoundSpec):
-            yield from _round(path, piece, parts.nettings.get(piece.netting))
+            yield from round_findings(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
-    sheets = _sheets(parts)
+    sheets = sheets_by_name(parts)
+    yield from seam_findings(parts, sheets)
     for index, rope in parts.ropes.items():
         yield from _rope(("gear", index), rope, parts, sheets)
+    for index, part in parts.tubulars.items():
+        yield from tubular_findings(("gear", index), part, parts.name_of(index))
+        yield from _way(("gear", index), part, parts, sheets)
     for index, bodies in parts.bodies.items():
-        yield from _bodies(("gear", index), bodies, water)
+        yield from body_findings(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
 
 
@@ -98,12 +108,26 @@ def has_bottom(keys: dict[str, Any]) -> bool:
 
 
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
-    if parts.is_static and keys.get("fixed") == "none":
+    anchored = any(other.get("kind") in _ANCHORED for _, other in parts.gear_tables())
+    if parts.is_static and keys.get("fixed") == "none" and not anchored and not _hangs(path, parts):
         panel = keys.get("kind") in _FLAT
         allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
         hold = "edges" if panel else "top"
         cure = f'nothing would hold it: write fixed = "{hold}", or solve with kind = "dynamic"'
         yield (*path, "fixed"), '"none"', allowed, cure
+
+
+def _hangs(path: Path, parts: Parts) -> bool:
+    """Whether seams join a part, by way of others or not, to one that is held."""
+    held = {parts.name_of(i) for i, keys in parts.gear_tables() if keys.get("fixed") != "none"}
+    owner = {name: parts.name_of(i) for i, keys in parts.gear_tables() for name in parts.names_of(i, keys)}
+    pairs = [{owner.get(one, one) for one in joined_names(keys)} for _, keys in parts.gear_tables()]
+    if any(one not in owner for pair in pairs for one in pair):
+        return True  # whatever a seam means that names no part, and is told
+    known = {parts.name_of(cast(int, path[1]))}
+    while any(pair & known and pair - known for pair in pairs):
+        known = known.union(*(pair for pair in pairs if pair & known))
+    return bool(known & held & set(parts.netting_names))
 
 
 def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
@@ -115,85 +139,6 @@ def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
         yield (*path, "size"), found, "one of size and hanging_ratio", cure
 
 
-def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterator[Finding]:
-    """What a shape round an axis must have to close."""
-    if piece.meshes[0] < LEAST_AROUND:
-        found = f"{piece.meshes[0]} around in {piece.called}"
-        allowed = f"at least {LEAST_AROUND} meshes around, and as many as its netting has"
-        yield (*path, "meshes"), found, allowed, "give first the meshes around, then those along the height"
-    if isinstance(piece, CylinderSpec | ConeSpec):
-        yield from _one_round_size(path, piece)
-        yield from _closing_ratio(path, piece, netting)
-    yield from _hexagons_round(path, piece, netting)
-    if netting is None or netting.mesh == "diamond":
-        return
-    allowed = "diamond netting, which can be gathered in one knot"
-    allowed += "; square netting has bars round its edge" * (netting.mesh == "square")
-    if isinstance(piece, ConeSpec):
-        cure = f'write mesh = "diamond" in [netting.{piece.netting}], or kind = "frustum"'
-        yield (*path, "kind"), f"{piece.called} of {netting.mesh_name} netting", allowed, cure
-    if piece.floor is not None:
-        cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
-        yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
-
-
-def _hexagons_round(
-    path: Path, piece: Piece, netting: NettingSpec | None, *, bottom: bool = False
-) -> Iterator[Finding]:
-    """What hexagons must have to close round, and that no bottom of theirs matches the walls of a box."""
-    if netting is None or not isinstance(netting.mesh, Hexagon):
-        return
-    if netting.mesh.turned:
-        found = f"hexagons with their long bars round {piece.called}"
-        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
-        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
-    if bottom:
-        allowed = "diamond or square netting, whose bottom matches its walls knot by knot"
-        cure = f'write bottom = false, or mesh = "diamond" in [netting.{piece.netting}]'
-        yield (*path, "bottom"), f"a bottom of hexagonal netting in {piece.called}", allowed, cure
-
-
-def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
-    if piece.sized:
-        return
-    given = [key for key in ("diameter", "height", "hanging_ratio") if getattr(piece, key) is not None]
-    found = f"{' and '.join(given) or 'nothing of these'} in {piece.called}"
-    missing = " and ".join(f'{key} = "1.5 m"' for key in ("diameter", "height") if key not in given)
-    cure = "leave out hanging_ratio, or the others" if "hanging_ratio" in given else f"add {missing}"
-    yield (*path, "diameter"), found, "diameter and height, or hanging_ratio instead of both", cure
-
-
-def _closing_ratio(
-    path: Path, piece: CylinderSpec | ConeSpec, netting: NettingSpec | None
-) -> Iterator[Finding]:
-    ratio = piece.hanging_ratio
-    if netting is None or ratio is None or not piece.sized:
-        return
-    key = (*path, "hanging_ratio")
-    if isinstance(ratio, tuple) and max(ratio) > 1.0:
-        allowed = "E1 and E2 above 0 and at most 1: netting is never longer than stretched"
-        cure = "0.5 to 0.8 is common for E1; E2 = sqrt(1 - E1^2) just straightens the bars of diamonds"
-        yield key, f"{written(list(ratio))} of {piece.called}", allowed, cure
-    elif isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        yield from _pair(path, ratio, netting)
-    elif isinstance(piece, ConeSpec) and piece.rims(netting) is None:
-        around, slant = piece.flat_size(netting)
-        found = f"{written(ratio)}: the netting of {piece.called} is {slant:.4g} m from rim to tip"
-        allowed = f"a slant above the radius of the rim, here {around / pi:.4g} m, so that it closes"
-        yield key, found, allowed, "make E1 smaller, or give it fewer meshes around or more along the height"
-
-
-def _pair(path: Path, ratio: float, netting: NettingSpec) -> Iterator[Finding]:
-    """What is wrong with one hanging ratio where no other one makes every bar just taut."""
-    if isinstance(netting.mesh, Hexagon):
-        long = netting.mesh.long_bar
-        allowed = f"at least {long / (1.0 + long):.4g}, where the slanted bars lie across, or [E1, E2]"
-        yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, 'give both, or write orientation = "T0"'
-        return
-    allowed = "[E1, E2] for square mesh, width and height over the stretched ones"
-    yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, f"write hanging_ratio = [{ratio:g}, {ratio:g}]"
-
-
 def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Finding]:
     if netting is None or not piece.sized:
         return
@@ -202,7 +147,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
         if isinstance(piece, FlatSpec | BoxSpec):
-            yield from _pair(path, ratio, netting)
+            yield from one_ratio(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
         if sheet.strain(netting) > LARGEST_STRAIN:
@@ -226,7 +171,7 @@ def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec)
     return (*path, key), found, allowed, cure
 
 
-def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
+def sheets_by_name(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     """The sheets of netting of all pieces that are good by themselves, by name."""
     out = {}
     for index, piece in parts.pieces.items():
@@ -238,7 +183,7 @@ def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     return cast(dict[str, tuple[Sheet, NettingSpec]], out)
 
 
-def _along(
+def edge_named(
     path: Path, what: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding | tuple[int, float]]:
     """Either what is wrong with an edge that is named, or how many knots it has and its length (m)."""
@@ -271,19 +216,13 @@ def _rope(
     path: Path, rope: RopeSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
     called = f"rope '{parts.name_of(cast(int, path[1]))}'"
-    for one in _along(path, called, rope.along, parts, sheets):
+    for one in edge_named(path, called, rope.along, parts, sheets):
         if len(one) == 4:
             yield one
             continue
         count, built = one
-        if count == 1:
-            allowed = "an edge of several knots"
-            yield (
-                (*path, "along"),
-                f"{written(rope.along)} of {called}, one knot",
-                allowed,
-                "name another edge",
-            )
+        if count == 1 or built < _LEAST_EDGE:
+            yield _no_way(path, called, rope.along, count, built)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -297,6 +236,37 @@ def _rope(
             )
 
 
+def _round_edge(along: str, sheets: Mapping[str, tuple[Sheet, NettingSpec]]) -> bool:
+    """Whether an edge goes round; a row that is no edge does not."""
+    name, _, side = along.rpartition(".")
+    return name in sheets and sheets[name][0].closed and side in ("top", "bottom")
+
+
+def _way(
+    path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    """What is wrong with the edge that a ring or a collar follows, if it follows one."""
+    if part.along is None:
+        return
+    called = f"{part.kind} '{parts.name_of(cast(int, path[1]))}'"
+    for one in edge_named(path, called, part.along, parts, sheets):
+        if len(one) == 4:
+            yield one
+        elif one[0] == 1 or one[1] < _LEAST_EDGE:
+            yield _no_way(path, called, part.along, *one)
+
+
+def _no_way(path: Path, called: str, along: str, count: int, built: float) -> Finding:
+    if count == 1:
+        found = f"{written(along)} of {called}, one knot"
+        return (*path, "along"), found, "an edge of several knots", "name another edge"
+    found, allowed = (
+        f"{written(along)} of {called}, {built:g} m long",
+        f"an edge of {_LEAST_EDGE:g} m or more",
+    )
+    return (*path, "along"), found, allowed, "check the units of the netting that it belongs to"
+
+
 def _hung(
     path: Path, bodies: BodiesSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
@@ -308,29 +278,44 @@ def _hung(
         yield (*path, "along"), found, "an edge (along) or labels of knots (at)", cure
         return
     if bodies.along is not None:
-        for one in _along(path, called, bodies.along, parts, sheets):
+        last = rows_of(parts, sheets).get(bodies.along)
+        in_row = [] if last is None else [(last + 1, length_of(parts, bodies.along))]
+        for one in in_row or edge_named(path, called, bodies.along, parts, sheets):
             if len(one) == 4:
                 yield one
-            elif bodies.count is not None and bodies.count > one[0]:
-                found = f"{bodies.count} of {called} along {written(bodies.along)}"
+            elif bodies.many(*one, closed=_round_edge(bodies.along, sheets)) > one[0]:
+                many = bodies.many(*one, closed=_round_edge(bodies.along, sheets))
+                found = f"{many} of {called} along {written(bodies.along)}"
                 allowed = f"at most the {one[0]} knots of this edge"
                 cure = "put fewer and heavier ones there, or leave count out for one at every knot"
-                yield (*path, "count"), found, allowed, cure
+                yield (*path, "spacing" if bodies.spacing else "count"), found, allowed, cure
+    if bodies.spacing is not None and (bodies.at is not None or bodies.count is not None):
+        other = "at" if bodies.at is not None else "count"
+        yield (
+            (*path, "spacing"),
+            f"spacing beside {other} in {called}",
+            "one of the two",
+            f"leave {other} or spacing out",
+        )
     if bodies.at is None:
         return
     if bodies.count is not None:
         cure = "leave count out: there is one at every label"
         yield (*path, "count"), f"{bodies.count} beside at in {called}", "count with along only", cure
     for place, label in enumerate(bodies.at):
-        yield from _knot((*path, "at", place), called, label, parts, sheets)
+        yield from knot_findings((*path, "at", place), called, label, parts, sheets)
         if label in bodies.at[:place]:
             found = f"{written(label)} of {called}, twice"
             yield (*path, "at", place), found, "every knot once", "leave it out, or make a heavier one"
 
 
-def _knot(
+def knot_findings(
     path: Path, what: str, label: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
+    """What is wrong with the label of a knot; what: who hangs there."""
+    if IN_ROW.fullmatch(label):
+        yield from in_row_findings(path, what, label, rows_of(parts, sheets))
+        return
     match = _LABEL.fullmatch(label)
     name = (match[1] or "") if match else label.partition(":")[0]
     found = f"{written(label)} of {what}"
@@ -350,54 +335,3 @@ def _knot(
             allowed += "; of hexagons every other one" * (netting.mesh_name == "hexagonal")
             allowed += "; its tip is 0-0" * sheet.tip
             yield path, found, allowed, "choose a knot that is there; knots.csv of a run lists them"
-
-
-def _bodies(path: Path, bodies: BodiesSpec, water: Water | None) -> Iterator[Finding]:
-    """What floats and sinkers are, and whether they float and sink."""
-    force, example, density = _KIND_OF_FORCE[bodies.kind]
-    values = {
-        force: bodies.force,
-        "density": bodies.density,
-        "mass": bodies.mass,
-        "diameter": bodies.diameter,
-    }
-    given = [key for key, value in values.items() if value is not None]
-    if given not in ([force, "density"], ["mass", "diameter"]):
-        found = " and ".join(given) if given else "nothing of these"
-        allowed = f"{force} (N in water) and density of each one, or mass and diameter"
-        cure = f"write {force} = {example} and density = {density}, or mass and diameter"
-        yield (*path, given[0] if given else force), f"{found} in {bodies.kind}", allowed, cure
-        return
-    if water is None:
-        return
-    sinks = isinstance(bodies, SinkersSpec)
-    if bodies.density is not None:
-        key, own = "density", bodies.density
-    else:
-        volume = pi / 6.0 * (bodies.diameter or 0.0) ** 3
-        key, own = "mass", (bodies.mass or 0.0) / volume if volume > 0.0 else inf
-    if (own <= water.density) if sinks else (own >= water.density):
-        found = f"{own:g} kg/m3, which {'does not sink' if sinks else 'does not float'}"
-        allowed = (
-            f"{'above' if sinks else 'below'} the {water.density:g} kg/m3 of the water for {bodies.kind}"
-        )
-        other = "floats" if sinks else "sinkers"
-        cure = f'check the units of {", ".join(given)}, or write kind = "{other}"'
-        yield (*path, key), found, allowed, cure
-    elif bodies.density is not None:
-        yield from _body_of_force((*path, force), bodies, water)
-
-
-def _body_of_force(path: Path, bodies: BodiesSpec, water: Water) -> Iterator[Finding]:
-    if water.gravity == 0.0:
-        found = f"{bodies.force:g} N without gravity"
-        yield path, found, "[water] gravity above 0 for a force in water", "give mass and diameter instead"
-        return
-    try:
-        diameter = bodies.sphere(water.density, water.gravity).diameter
-    except (OverflowError, ZeroDivisionError):
-        diameter = inf
-    if not diameter <= _LARGEST_BODY:
-        found = f"{bodies.force:g} N at {bodies.density:g} kg/m3, a sphere of {diameter:.3g} m"
-        allowed = f"a body of at most {_LARGEST_BODY:g} m"
-        yield path, found, allowed, "check its unit; the density may be too near that of the water"

@@ -8,7 +8,10 @@ import numpy as np
 
 from ..netting.lattice import hanging_ratios
 from .gear import LARGEST_STRAIN
+from .grouping import rounded
+from .motion_check import motion_oddities
 from .schema import Case
+from .sewing import tried
 from .water_check import current_oddities
 from .waves import wave_oddities
 
@@ -24,17 +27,21 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_frames(case),
         *_unused(case),
         *_no_effect(case),
+        *_seams(case),
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *_groundless(case),
+        *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
+        *motion_oddities(case),
     )
 
 
 def _floating(case: Case) -> Iterator[str]:
     water = case.water.density
     for name, twine in case.twine.items():
-        density = twine.resolved_density or 0.0
+        density = twine.mean_density or 0.0
         if density < water:
             yield (f"Twine '{name}' floats: {density:g} kg/m3 is below the water's {water:g} kg/m3.")
     for name, netting in case.netting.items():
@@ -85,19 +92,47 @@ def _unused(case: Case) -> Iterator[str]:
     for name in sorted(case.netting.keys() - worn):
         yield f"Netting '{name}' is not used by any gear."
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
-    for name in sorted(case.twine.keys() - spun):
-        yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
-    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
-        yield f"Material '{name}' is not used by any twine."
+    spun |= {piece.twine for line in case.lines for piece in line.asked}
+    spun |= {line.twine for line in case.lines if line.twine is not None}
+    also = " or rope" * bool(case.ropes) + " or line" * bool(case.lines)
+    for what in ("twine", "chain"):
+        for name in sorted(getattr(case, what).keys() - spun):
+            yield f"{what.capitalize()} '{name}' is not used by any netting{also}."
+    for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
+        yield f"Tube '{name}' is not used by any ring or collar."
+    made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
+    for name in sorted(case.material.keys() - made):
+        yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
+
+
+def _groundless(case: Case) -> Iterator[str]:
+    if case.lines and case.water.depth is not None and case.bed is None:
+        yield (
+            f"Nothing bears lines at the sea bed {case.water.depth:g} m down: they hang through it; add [bed]."
+        )
 
 
 def _no_effect(case: Case) -> Iterator[str]:
-    if case.solve.kind == "dynamic" and "tolerance" in case.solve.model_fields_set:
+    solve = case.solve
+    if solve.kind == "dynamic" and "tolerance" in solve.model_fields_set and solve.start == "built":
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
     if case.drag.kind == "bars" and case.drag.screens is not None:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
+    if case.solve.kind == "dynamic" and case.output.periods is not None:
+        yield "[output] periods plays no part in a dynamic case; natural periods are those about an equilibrium."
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
+
+
+def _seams(case: Case) -> Iterator[str]:
+    """Edges that lie apart before they are joined."""
+    for trial in tried(case):
+        if trial.apart > trial.mesh:
+            yield (
+                f"The edges of seam '{trial.seam.name}' lie up to {trial.apart:.3g} m apart, more than a stretched "
+                f"mesh of {trial.mesh:.3g} m: their knots are put together, and bars there begin as long as that "
+                "makes them."
+            )
 
 
 def _sheltered_twice(case: Case) -> Iterator[str]:

@@ -13,8 +13,15 @@ _HEADER = re.compile(rf"\s*(\[\[?)\s*({_DOTTED})\s*\]\]?\s*(?:#.*)?")
 _ASSIGNMENT = re.compile(rf"\s*({_DOTTED})\s*=(.*)")
 _STRING_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*')
 _TRIPLE = re.compile("\"\"\"|'''")
-_LISTED = ("gear", "load_case")  # tables whose second step is a number
-_NAMED = ("material", "twine", "netting", *_LISTED)  # those whose second step is that or a name
+_LISTED = ("gear", "motion", "load_case")  # tables whose second step is a number
+_NAMED = (
+    "material",
+    "twine",
+    "chain",
+    "tube",
+    "netting",
+    *_LISTED,
+)  # those whose second step is that or a name
 
 
 class Places:

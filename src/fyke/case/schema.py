@@ -9,22 +9,31 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
+from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
+from .bed import BedSpec
 from .box import BoxSpec
 from .current import Current
 from .drag import Drag, hung_solidity
-from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
+from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance, whole
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .grouping import GroupingSpec, choose_groups
+from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
 from .load_case import LoadCaseSpec
+from .motion import MotionSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
 from .tapered import TrapezoidSpec, TriangleSpec
+from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
+
+MOST_PERIODS = 100
 
 
 def _static_by_default(value: Any) -> Any:
@@ -63,11 +72,15 @@ class StaticSolve(Table):
 
 
 class DynamicSolve(Table):
-    """Step in time from the flat net at rest."""
+    """Step in time from the net at rest."""
 
     kind: Literal["dynamic"] = Field(description="static or dynamic", examples=["dynamic"])
     tolerance: Force = Field(default=1e-8, description="N, of static cases; settle_force is for dynamic ones")
     duration: Time = Field(description="s, simulated time", examples=[2.0])
+    start: Literal["built", "equilibrium"] = Field(
+        default="built",
+        description="begin with the net as built, or at its equilibrium in the water of time 0 without waves",
+    )
     stepper: Literal["auto", "implicit", "newmark", "verner", "symplectic"] = Field(
         default="auto", description="time stepping method"
     )
@@ -98,7 +111,12 @@ Gear = Annotated[
     | ConeSpec
     | FrustumSpec
     | BoxSpec
+    | SeamSpec
     | RopeSpec
+    | LineSpec
+    | MooringsSpec
+    | RingSpec
+    | CollarSpec
     | SinkersSpec
     | FloatsSpec,
     Field(discriminator="kind"),
@@ -110,7 +128,7 @@ SolveSpec = Annotated[
 
 
 class Output(Table):
-    """What a dynamic run writes."""
+    """What a run writes."""
 
     every: Time | None = Field(
         default=None, description="s between outputs, a hundredth of the duration by default", examples=[0.02]
@@ -119,6 +137,11 @@ class Output(Table):
         default=((0.0, 0.0, 0.0),),
         description="m, points at which a run in waves writes the motion of the water",
         examples=[[[0.0, 0.0, -1.0]]],
+    )
+    periods: Annotated[int, *whole(1, MOST_PERIODS)] | None = Field(
+        default=None,
+        description="so many of the slowest natural periods of a static case; none by default",
+        examples=[6],
     )
 
 
@@ -144,18 +167,27 @@ class Case(Table):
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
     waves: WavesSpec | None = Field(default=None, description="the waves")
+    bed: BedSpec | None = Field(default=None, description="the sea bed, which bears what comes down to it")
     material: Annotated[dict[Name, MaterialSpec], BeforeValidator(_named_tables("material"))] = Field(
         default={}, description="materials of your own by name"
     )
-    twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
-        Field(description="twines by name", examples=[{"main": {}}])
+    twine: Annotated[dict[Name, TwineSpec], BeforeValidator(_named_tables("twine"))] = Field(
+        default={}, description="twines by name", examples=[{"main": {}}]
     )
-    netting: Annotated[
-        dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
-    ] = Field(description="nettings by name")
+    chain: Annotated[dict[Name, ChainSpec], BeforeValidator(_named_tables("chain"))] = Field(
+        default={}, description="chains by name, for lines"
+    )
+    netting: Annotated[dict[Name, NettingSpec], BeforeValidator(_named_tables("netting"))] = Field(
+        default={}, description="nettings by name"
+    )
+    tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
+        default={}, description="tubes by name"
+    )
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, lines, sinkers and floats, one [[gear]] each"
     )
+    grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
+    motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
     shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
@@ -184,6 +216,13 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        made = [(one, self.netting[one.netting]) for one in self.pieces if one.netting in self.netting]
+        for (piece, _), group in zip(
+            made, choose_groups(made, self.grouping.knots if self.grouping else None), strict=True
+        ):
+            piece.gather(group)
+        for motion in self.motion:
+            motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
@@ -213,8 +252,15 @@ class Case(Table):
 
     @property
     def twines(self) -> dict[str, Twine]:
-        """The twines of the netting, by name."""
-        return {name: spec.twine(name) for name, spec in self.twine.items()}
+        """The twines and chains of netting, ropes and lines, by name."""
+        specs: dict[str, TwineSpec | ChainSpec] = {**self.twine, **self.chain}
+        return {name: spec.twine(name) for name, spec in specs.items()}
+
+    @property
+    def tubes(self) -> dict[str, Tube]:
+        """The tubes of rings and collars, by name."""
+        own = {name: spec.material(name) for name, spec in self.material.items()}
+        return {name: spec.tube(own) for name, spec in self.tube.items()}
 
     @property
     def folder(self) -> Path:
@@ -227,9 +273,24 @@ class Case(Table):
         return tuple(part for part in self.gear if isinstance(part, Piece))
 
     @property
+    def seams(self) -> tuple[SeamSpec, ...]:
+        """The gear that is seams."""
+        return tuple(part for part in self.gear if isinstance(part, SeamSpec))
+
+    @property
     def ropes(self) -> tuple[RopeSpec, ...]:
         """The gear that is ropes."""
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def lines(self) -> tuple[LaidSpec, ...]:
+        """The gear that is lines free of netting, and moorings."""
+        return tuple(part for part in self.gear if isinstance(part, LaidSpec))
+
+    @property
+    def tubulars(self) -> tuple[TubularSpec, ...]:
+        """The gear that is made of tubes."""
+        return tuple(part for part in self.gear if isinstance(part, TubularSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:
@@ -250,7 +311,7 @@ class Case(Table):
             outline = sheet.area(netting.mesh)
             solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
-        return solid / area
+        return solid / area if area else 0.0
 
     @property
     def positions_file(self) -> Path | None:

@@ -52,6 +52,7 @@ density = 1140.0                     # kg/m3, of the fibre
 diameter = "1.5 mm"                  # or, instead of it or with it, the mass per length:
 # rtex = "2000 tex"
 # packing = 0.65                     # share of fibre in the cross-section, where rtex makes the diameter
+# lead = "1 g/m"                     # of a lead line, beside its fibre
 youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "linear", youngs_modulus = "1.0 GPa" }
 # law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
@@ -75,6 +76,10 @@ knot_diameter = "3.5 mm"             # leave out for knotless netting
 # orientation = "T0"                 # of hexagons: long bars along the height (T0) or the width (T90)
 # knot_density = 1140.0              # kg/m3, the twine's by default
 # segments = 2                       # straight pieces of every bar, so that it can bow; 1 by default
+# group = 4                          # one mesh is laid for 4 x 4; 1 by default; also in one [[gear]] of netting alone
+
+# [grouping]                         # instead of group: as fine as so many knots of all netting together allow
+# knots = 5000
 
 [[gear]]                             # one for every part
 kind = "panel"
@@ -106,11 +111,39 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "main"
 # along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
 # length = "2.5 m"                   # unloaded, that of the edge by default
+# [tube.pipe]                        # of rings and collars
+# material = "HDPE"                  # HDPE, steel or your own: density, modulus, yield stress where you give none
+# diameter = "315 mm"                # outer
+# wall = "17.9 mm"
+# contents = "air"                   # air | water
+# density = 958.0                    # kg/m3, of the wall
+# youngs_modulus = "900 MPa"
+# mass_per_length = "18 kg/m"        # with what is fitted to it; that of the wall by default
+# yield_stress = "26 MPa"            # which the largest stress is compared with
+# [[gear]]
+# kind = "collar"                    # floats, and sets the edge free
+# name = "collar"
+# tube = "pipe"
+# tubes = 2                          # side by side
+# rigid = false                      # true: it keeps its shape
+# along = "cage.top"
+# [[gear]]
+# kind = "ring"                      # such as a sinker tube
+# name = "sinker tube"
+# tube = "pipe"
+# along = "cage.bottom"
+# [[gear]]
+# kind = "ring"                      # of its own, its knots "hoop:0", "hoop:1" ...
+# name = "hoop"
+# tube = "pipe"
+# diameter = "25 m"
+# centre = [0.0, 0.0, -15.0]
+# knots = 48
 # [[gear]]
 # kind = "sinkers"
 # name = "weights"
 # along = "cage.bottom"
-# count = 16                         # evenly along it, one at every knot by default
+# count = 16                         # evenly along it, or spacing = "0.5 m"; one at every knot by default
 # weight = "5 N"                     # of each one in water, with its density; or, instead, mass and diameter
 # density = 7850.0
 # drag = 0.47                        # C_D of each one
@@ -120,6 +153,80 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # at = ["cage:0-0", "cage:8-0"]      # labels of knots; or along, as for sinkers
 # buoyancy = "5 N"                   # lift of each one under water, with its density
 # density = 200.0
+
+# Lines free of netting, and the sea bed, which lies at the depth of [water]:
+# [bed]
+# friction = 0.5
+# stiffness = 3e6                    # Pa per metre of sinking in
+# damping = 3e5                      # Pa s/m
+# [chain.links]                      # steel chain, which lines may name as their twine
+# bar_diameter = "13 mm"             # of the steel of its links
+# links = "studless"                 # studless | studded
+# breaking_strength = "150 kN"
+# [[gear]]
+# kind = "line"
+# name = "warp"
+# from = [6.0, 0.0, 0.0]             # a place, m, or a knot: "cage:0-0", "cage.top[0]", "footrope:3"
+# to = "left.top[0]"
+# twine = "rope"                     # or a [chain.NAME]
+# length = "6.5 m"                   # unloaded; or, instead of it:
+# pretension = "20 N"                # at its end (to), as it hangs in still water
+# segments = 20
+# pieces = [{ twine = "rope", length = "6.5 m", segments = 10 }]   # instead of twine and length
+# fixed = "both"                     # both | from | to | none: which of its ends that are places are held
+# [[gear]]
+# kind = "moorings"                  # lines as above, from anchors on the sea bed, evenly around a rim or ring
+# around = "cage.top"
+# count = 4
+# radius = "5 m"                     # of the circle of anchors
+# bearing = "45 deg"                 # of the first one, from +x turning to +y
+# twine = "rope"
+# length = "25 m"
+
+# Netting cut to shape, cages with four walls, and seams:
+# [[gear]]
+# kind = "trapezoid"                 # trapezoid | triangle (point = "down" or "up" instead of cut and lower)
+# name = "wing"
+# netting = "main"
+# meshes = [12, 6]                   # along the upper edge, along the height
+# cut = "1N2B"                       # cutting rate of both sides, or ["AN", "1N2B"], left and right
+# lower = 6                          # meshes along the lower edge; one of the two is enough
+# hanging_ratio = 0.6                # or size, width of the wide end and height
+# centre = [0.0, 0.0, -0.5]
+# [[gear]]
+# kind = "box"
+# name = "box"
+# netting = "main"
+# meshes = [8, 8, 6]                 # along x, along y, along the depth
+# size = [0.3, 0.3, 0.2]             # or hanging_ratio
+# bottom = true                      # false leaves it open
+# top = [0.0, 0.0, -0.2]             # m, middle of the upper rim
+# fixed = "top"
+# [[gear]]
+# kind = "trapezoid"
+# name = "square"
+# netting = "main"
+# meshes = [12, 4]
+# lower = 12
+# hanging_ratio = 0.6
+# centre = [0.0, 0.0, -0.26]
+# fixed = "top"
+# [[gear]]
+# kind = "seam"
+# name = "joining"
+# join = ["square.bottom", "wing.top"]
+# take_up = 1.0                      # meshes of the first edge on those of the second, 1.5 or "3:2"; 1 without it
+
+# Held knots that move, in a dynamic case; several [[motion]] of the same knots add up:
+# [[motion]]
+# of = ["cage.top"]                  # NAME.EDGE, labels of knots, names of gear; all held knots by default
+# velocity = [-0.5, 0.0, 0.0]        # m/s, of a tow
+# amplitude = [0.0, 0.0, 0.5]        # m, of a swing, amplitude x sin(2 pi t / period + phase)
+# period = "6 s"
+# phase = "0 deg"
+# rotation = { axis = [0, 1, 0], point = [0, 0, 0], amplitude = "5 deg", period = "6 s" }   # or rate = "10 deg/s"
+# file = "motion.csv"                # columns time,dx,dy,dz (s, m), time,roll,pitch,yaw (deg) or all of them
+# ramp = "2 s"                       # smooth start
 
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
@@ -150,6 +257,7 @@ kind = "static"                      # static | dynamic
 # tolerance = 1e-8                   # N, largest unbalanced force on a free knot
 # For kind = "dynamic":
 # duration = 2.0                     # s
+# start = "equilibrium"              # begin at rest in the water of time 0; "built" as the file has the net
 # stepper = "auto"                   # auto | implicit | newmark | verner | symplectic
 # rtol = 1e-2
 # atol = 1e-6
@@ -159,6 +267,7 @@ kind = "static"                      # static | dynamic
 
 [output]
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
+# periods = 6                        # the slowest natural periods of a static case
 # probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
 
 # [[load_case]]                      # the same gear in other water: one table, folder and row of loads.csv for each

@@ -15,8 +15,9 @@ from ..results import CheckpointError, ResultError, frame_bytes, frames_of, load
 from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
-PARTS, WAVES = "parts.csv", "waves.csv"
+PARTS, RINGS, LINES, WAVES = "parts.csv", "rings.csv", "lines.csv", "waves.csv"
 LOADS, LOADS_BY_PART, LOAD_CASES = "loads.csv", "loads_by_part.csv", "load_cases"  # the last a folder
+LOAD_CURVES = "load_curves"
 CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
 PICTURES = (
@@ -28,6 +29,7 @@ PICTURES = (
     "histories",
     "comparison",
     "waves",
+    "load_curves",
 )
 GB = 1e9
 _ALLOWED = "a folder that can be written and holds no result"
@@ -78,7 +80,20 @@ def _memory() -> float:
 
 def _clear(folder: Path) -> None:
     pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
-    for name in (RESULT, SUMMARY, KNOTS, BARS, PARTS, WAVES, LOADS, LOADS_BY_PART, CHECKPOINT, *pictures):
+    for name in (
+        RESULT,
+        SUMMARY,
+        KNOTS,
+        BARS,
+        PARTS,
+        RINGS,
+        LINES,
+        WAVES,
+        LOADS,
+        LOADS_BY_PART,
+        CHECKPOINT,
+        *pictures,
+    ):
         (folder / name).unlink(missing_ok=True)
     for one in (folder / LOAD_CASES).glob("*/"):
         _clear(one)

@@ -10,10 +10,12 @@ import numpy as np
 from rich.text import Text
 
 from ..case import Case, CaseError, Problem, load_case
+from ..results.periods import told_modes
 from ..solve.modes import Modes, modes
 from ..solve.result import Result
 from ..solve.static import solve_static
 from ..system.build import build_net, build_system
+from ..system.carriage import seen_from_the_carriage
 from ..system.system import System
 from ..water.current import at_full_strength
 from .show import (
@@ -39,7 +41,7 @@ def show_modes(file: Path, count: int, *, json: bool) -> int:
     try:
         case = load_case(file)
         system = build_system(build_net(case), case)
-        system = replace(system, current=at_full_strength(system.current))
+        system = _at_rest(file, replace(system, current=at_full_strength(system.current)))
         rest = solve_static(system, tolerance=case.solve.tolerance)
         found = _modes(file, system, rest, count) if rest.outcome.ok else None
     except CaseError as error:
@@ -60,6 +62,17 @@ def show_modes(file: Path, count: int, *, json: bool) -> int:
     return NOT_CONVERGED
 
 
+def _at_rest(file: Path, system: System) -> System:
+    """Return a system that may come to rest: a towed one as it is seen from the carriage."""
+    try:
+        return seen_from_the_carriage(system)
+    except ValueError as error:
+        cure = "tow all held knots at one velocity"
+        raise CaseError(
+            [Problem(f"{file}, [[motion]]", str(error), "a net that comes to rest", cure)]
+        ) from None
+
+
 def _modes(file: Path, system: System, rest: Result, count: int) -> Modes:
     try:
         return modes(system, rest.position[-1], count=count)
@@ -71,28 +84,17 @@ def _modes(file: Path, system: System, rest: Result, count: int) -> Modes:
 def _findings(case: Case, system: System, rest: Result, found: Modes | None) -> dict[str, Any]:
     """Return what was found, ready for JSON.
 
-    modes: slowest first; frequency in Hz, circular_frequency in rad/s, period in s, None where nothing pulls the net
-    back; largest_motion: label of the knot that moves most, direction: its unit vector. loose: labels of the knots
-    without a period.
+    modes: as results.periods tells them; loose: labels of the knots without a period; falling: how many of the modes
+    are no oscillations, because a tube buckles.
     """
     labels, net = system.net.labels, system.net
-    listed = []
-    for omega, shape in zip(found.frequency, found.shape, strict=True) if found is not None else ():
-        knot = int(np.argmax(np.linalg.norm(shape, axis=1)))
-        listed.append(
-            {
-                "period": 2.0 * np.pi / float(omega) if omega > 0.0 else None,
-                "frequency": float(omega) / (2.0 * np.pi),
-                "circular_frequency": float(omega),
-                "largest_motion": labels[knot],
-                "direction": (shape[knot] / np.linalg.norm(shape[knot])).tolist(),
-            }
-        )
+    listed = [] if found is None else told_modes(system, rest.position[-1], found)
     return {
         "title": case.title,
         "knots": net.knot_count,
         "bars": net.bar_count,
         "modes": listed,
+        "falling": 0 if found is None else found.falling,
         "loose": [] if found is None else [labels[knot] for knot in found.loose],
         "outcome": rest.outcome.name,
         "message": rest.outcome.message,
@@ -113,6 +115,10 @@ def _show(title: str, findings: dict[str, Any]) -> None:
     if loose:
         named = ", ".join(loose[:MOST_NAMED]) + (" .." if len(loose) > MOST_NAMED else "")
         rows.append(("loose knots", f"{len(loose)}, on slack bars only and left out: {named}"))
+    if findings["falling"]:
+        rows.append(
+            ("falling", f"the first {findings['falling']}: the equilibrium is not stable in still water")
+        )
     print_rows(console, title, rows)
     console.print(Text("Natural modes, slowest first; undamped, with added mass", style="bold"))
     console.print(Text("  mode     period  frequency  moves most", style="dim"))

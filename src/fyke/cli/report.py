@@ -14,14 +14,18 @@ from ..results import (
     audit,
     compare,
     flow_direction,
+    line_figures,
     moments,
     out_of_range,
     part_figures,
+    rings_told,
     summary,
     water_figures,
 )
+from ..results.periods import period_figures
 from ..solve.result import Result
 from ..system.build import build_net, build_system
+from ..system.hanging import hanging
 from ..system.system import System
 from .export import case_of, opened, taken, unwritten
 from .folder import SUMMARY
@@ -108,6 +112,11 @@ def _figures(result: Result, case: Case | None, system: System | None) -> dict[s
     if system is not None:
         depth = None if case is None else case.water.depth
         figures |= water_figures(system, result) | part_figures(system, result, depth=depth)
+        figures |= line_figures(system, result)
+        figures |= rings_told(system, result)
+        if case is not None and case.output.periods is not None and case.solve.kind == "static":
+            figures |= period_figures(system, result, case.output.periods)
+        warnings += hanging(system, static=case is not None and case.solve.kind == "static")
         warnings += out_of_range(system, moments(result)).warnings
     figures["warnings"] = list(dict.fromkeys(warnings))
     return figures

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from pathlib import Path
@@ -20,6 +19,7 @@ from ..results import (
     audit,
     compare,
     flow_direction,
+    line_figures,
     load,
     load_figures,
     mean_current,
@@ -27,17 +27,23 @@ from ..results import (
     out_of_range,
     part_figures,
     probes_of,
+    rings_told,
     save,
     save_checkpoint,
     summary,
     water_figures,
+    write_lines,
     write_loads,
     write_parts,
     write_probes,
+    write_rings,
     write_summary,
     write_tables,
 )
+from ..results.lines import line_words
 from ..results.parts import part_words
+from ..results.periods import period_figures, period_words
+from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
@@ -45,9 +51,32 @@ from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
+from ..system.hanging import hanging
 from ..system.system import State, System
-from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
-from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
+from .account import account_rows
+from .folder import (
+    BARS,
+    CHECKPOINT,
+    KNOTS,
+    LINES,
+    PARTS,
+    RESULT,
+    RINGS,
+    SUMMARY,
+    WAVES,
+    claim,
+    make_sure_of_room,
+    stopped,
+)
+from .load_cases import (
+    Done,
+    Wishes,
+    claim_load_cases,
+    draw_loads,
+    print_loads,
+    refuse_load_cases,
+    run_load_cases,
+)
 from .progress import progress_bar
 from .show import (
     DONE,
@@ -134,6 +163,7 @@ def _run(
     figures, rows = done.figures, run_load_cases(case, system, done, folder, wishes, _solve_and_write)
     if rows:
         write_loads(rows, folder)
+        done.pictures.extend(draw_loads(rows, folder) if wishes.figures else ())
         figures |= load_figures(rows) | {"time_by_part": clock.seconds}
         write_summary(figures, folder)
     if wishes.json:
@@ -167,6 +197,9 @@ def _solve_and_write(
     with timed("writing"):
         write_tables(result, folder)
         write_parts(figures["parts"], folder)
+        if "lines" in figures:
+            write_lines(figures["lines"], folder)
+        write_rings(figures.get("rings", []), folder)
         write_summary(figures, folder)
         if probes is not None:
             write_probes(probes, folder)
@@ -246,9 +279,15 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
+    figures |= line_figures(system, result) | rings_told(system, result)
+    if case.output.periods is not None and case.solve.kind == "static":
+        figures |= period_figures(system, result, case.output.periods)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
-    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
+    held = hanging(system, static=case.solve.kind == "static")
+    figures["warnings"] = list(
+        dict.fromkeys([*case.warnings, *held, *result.outcome.warnings, *outside.warnings])
+    )
     figures["out_of_range"] = outside.counts
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
@@ -277,7 +316,9 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, PARTS, *([WAVES] if (folder / WAVES).is_file() else [])])
+    tables = ", ".join(
+        [KNOTS, BARS, PARTS, *(one for one in (RINGS, LINES, WAVES) if (folder / one).is_file())]
+    )
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -293,15 +334,28 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [
         ("outcome", f"{figures['outcome']}: {figures['message']}"),
         ("knots, bars", f"{figures['knots']}, {figures['bars']}"),
+        *(
+            [
+                (
+                    "for real ones",
+                    f"{figures['real_knots']}, {figures['real_bars']}; tensions are of one real bar",
+                )
+            ]
+            if figures["group"] > 1.0
+            else []
+        ),
         ("largest tension", quantity(figures["max_tension"], "N") + where),
         ("slack bars", f"{figures['slack_bars']} of {figures['bars']}"),
         ("drag, lift", f"{quantity(figures['drag'], 'N')}, {quantity(figures['lift'], 'N')}"),
         ("weight in water", quantity(figures["weight_in_water"], "N")),
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
-        *water_words(figures),
-        *part_words(figures),
-        *_account_rows(figures),
+        *(
+            row
+            for told in (water_words, part_words, period_words, line_words, ring_words)
+            for row in told(figures)
+        ),
+        *account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
         ("time of the solve", quantity(figures["wall_time"], "s", 3)),
@@ -326,33 +380,3 @@ def _work_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
 
 def _parts(seconds: dict[str, float]) -> str:
     return ", ".join(f"{part} {quantity(one, 's', 2)}" for part, one in seconds.items() if one >= LEAST_SHOWN)
-
-
-def _account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    accounts = figures["audit"]
-    energy, knot = accounts["energy"], accounts["unbalanced_knot"]
-    where = "" if knot is None else f", at knot {knot}"
-    left = f"{math.hypot(*accounts['load_less_reaction']):.2g} of {quantity(accounts['load_size'], 'N')}"
-    rows = [
-        ("unbalanced force", quantity(accounts["unbalanced_force"], "N", 2) + where),
-        ("load less reaction", left if energy is None else f"{left}, the inertia of the net"),
-    ]
-    if energy is not None:
-        taken = {
-            "current and waves" if "waves" in figures else "current": energy["current_work"],
-            "weight and loads": -energy["potential"],
-            "turning added mass": energy["added_mass_work"],
-        }
-        if energy["inertia_work"]:
-            taken["inertia of the water"] = energy["inertia_work"]
-        if energy["parts_work"]:
-            taken["bending and bed"] = energy["parts_work"]
-        given = {
-            "drag": energy["drag_dissipation"],
-            "twine": energy["twine_dissipation"],
-            "stored": energy["kinetic"] + energy["elastic"],
-            "left over": energy["remainder"],
-        }
-        for what, shares in (("energy in", taken), ("energy out", given)):
-            rows.append((what, ", ".join(f"{name} {quantity(one, 'J', 3)}" for name, one in shares.items())))
-    return rows

@@ -40,7 +40,7 @@ class Bending:
         Half of each bar bends: 1/B = l1/(2 EI1) + l2/(2 EI2). Where one has no EI there is a hinge; one between two
         held knots is a clamp, in which nothing bends.
         """
-        each = np.array([t.bending_stiffness for t in net.twines])[net.twine_of_bar]
+        each = net.bar_multiple * np.array([t.bending_stiffness for t in net.twines])[net.twine_of_bar]
         half = np.divide(0.5 * net.rest_length, each, out=np.full(net.bar_count, np.inf), where=each > 0.0)
         half[net.fixed[net.bars].all(axis=1) & (each > 0.0)] = 0.0
         knots, softness = [], []

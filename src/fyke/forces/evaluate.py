@@ -87,7 +87,7 @@ def evaluate(system: System, state: State) -> Frame:
         time=state.time,
         position=state.position,
         velocity=state.velocity,
-        tension=tension,
+        tension=tension / system.net.bar_multiple,
         bar_drag=drag,
         bar_lift=np.linalg.norm(on_bars - drag[:, None] * direction, axis=1),
         water_velocity=flow,

@@ -105,11 +105,13 @@ def _faces_of_panel(net: Net, panel: Panel, which: int) -> Faces:
     third = np.array([1.0, 1.0, 1.0, 0.0]) / 3.0
     count = len(corners)
     twine = next(t for t in net.twines if t.name == panel.twine)
+    # Solidity is that of the real meshes, of which a face has many.
+    real = area / (panel.group[0] * panel.group[1])
     return Faces(
         corners=corners,
         share=np.where(triangle[:, None], third, np.full(4, 0.25)),
         area=area,
-        solidity=_solidity(panel, twine.diameter, area * _parts_of_a_mesh(panel, triangle)),
+        solidity=_solidity(panel, twine.diameter, real * _parts_of_a_mesh(panel, triangle)),
         diameter=np.full(count, twine.diameter),
         panel=np.full(count, which, dtype=np.int64),
         bars=_sides(panel, grid, places),
@@ -128,7 +130,7 @@ def _parts_of_a_mesh(panel: Panel, triangle: NDArray[np.bool_]) -> Array:
     kind = panel.kind
     if not isinstance(kind, Hexagon):
         return np.where(triangle, 2.0, 1.0)
-    ratios = hanging_ratios(kind, panel.meshes, panel.bar_length, panel.size)
+    ratios = hanging_ratios(kind, panel.real_meshes, panel.bar_length, panel.size)
     across, rise = kind.rise(ratios)
     whole, tip = kind.area(1.0, ratios), across * max(rise, 0.0)
     return np.where(triangle, whole / tip if tip > 0.0 else 0.0, 2.0)
@@ -137,7 +139,7 @@ def _parts_of_a_mesh(panel: Panel, triangle: NDArray[np.bool_]) -> Array:
 def _solidity(panel: Panel, diameter: float, area: Array) -> Array:
     """Solidity of meshes of these areas (p,) m2 hung like the panel, whose ratios E1, E2 differ with its width."""
     mesh = panel.kind
-    e1, e2 = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
+    e1, e2 = hanging_ratios(mesh, panel.real_meshes, panel.bar_length, panel.size)
     whole = mesh_area(mesh, panel.bar_length, (e1, e2))
     out = np.empty(len(area))
     # Meshes of one row are alike: few different areas.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, cast
 
 import numpy as np
@@ -27,7 +28,8 @@ class Panel:
     hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
     width (T90). Of netting cut to shape: cuts: of the left and the right side, from the wide end on, and the narrow
     end; meshes and size are those of the wide end. folds: lattice columns of the corners of a box, where its wall is
-    folded.
+    folded. Of grouped netting meshes, knots and bars are those that it is laid with, and grouped_from: the meshes of
+    the real netting, whose bar_length and knot_diameter these are; None where each mesh stands for itself.
     """
 
     name: str
@@ -45,6 +47,18 @@ class Panel:
     turned: bool = False
     cuts: tuple[str, ...] = ()
     folds: tuple[int, ...] = ()
+    grouped_from: tuple[int, int] | None = None
+
+    @property
+    def real_meshes(self) -> tuple[int, int]:
+        """Meshes of the real netting along width and height."""
+        return self.grouped_from or self.meshes
+
+    @property
+    def group(self) -> tuple[float, float]:
+        """How many real meshes one of the net stands for along width and height."""
+        real = self.real_meshes
+        return real[0] / self.meshes[0], real[1] / self.meshes[1]
 
     @property
     def taper(self) -> Taper | None:
@@ -58,7 +72,7 @@ class Panel:
             return Hexagon(self.long_bar / self.bar_length, self.turned)
         return "square" if self.mesh == "square" else "diamond"
 
-    @property
+    @cached_property
     def lattice(self) -> Lattice:
         """The lattice of the meshes."""
         return lattice(self.kind, self.meshes, self.taper)
@@ -71,6 +85,11 @@ class Panel:
         at = places(grid, self.kind, self.meshes, self.bar_length, self.size)
         return np.asarray((at - 0.5 * intervals) * (np.array(self.size) / intervals))
 
+    def real_place(self, i: int, j: int) -> Array:
+        """Where a knot (i, j) of the real netting lies on the netting laid flat, about its middle, (2,) m."""
+        intervals = np.array(self.lattice.intervals) * np.array(self.group)
+        return np.asarray((np.array([i, j]) / intervals - 0.5) * np.array(self.size))
+
     def edge(self, which: Side | Corner) -> NDArray[np.int64]:
         """Knots of the net along an edge, in order from left to right or from below; corners: of a box."""
         grid = self.lattice
@@ -81,6 +100,14 @@ class Panel:
             raise ValueError(f"netting '{self.name}' has no {which}")
         there = np.flatnonzero(grid.knots[:, 0] == self.folds[number])
         return self.knots[there[np.argsort(grid.knots[there, 1], kind="stable")]]
+
+    def real_along(self, which: Side | Corner) -> Array:
+        """How many real knots of an edge each of its knots stands for, in the order of edge()."""
+        along = 0 if which in ("top", "bottom") else 1
+        many = np.full(len(self.edge(which)), self.group[along])
+        if not (self.closed and along == 0):
+            many[[0, -1]] = 0.5 * (self.group[along] + 1.0)
+        return many
 
 
 @dataclass(frozen=True)
@@ -112,15 +139,21 @@ class Bodies:
     diameter: float
 
 
+def _single() -> Array:
+    return np.empty(0)
+
+
 @dataclass(frozen=True)
 class Net:
     """n knots joined by m bars.
 
     positions: (n, 3) m, before anything acts; labels: n texts, row and column "i-j" on a panel; fixed: (n,) bool;
     bars: (m, 2) knot indices; rest_length: (m,) m, unloaded; twines: the twines in use; twine_of_bar: (m,) index
-    into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot
-    on top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
-    sinkers in it, each may be empty.
+    into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot on
+    top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
+    sinkers in it, each may be empty; bar_multiple: (m,) how many real bars side by side a bar stands for,
+    knot_multiple: (n,) how many real knots a knot, see netting.multiples; what is missing at their ends is 1.
+    Diameters and twines are those of the real bar and knot.
     """
 
     positions: Array
@@ -136,6 +169,19 @@ class Net:
     panels: tuple[Panel, ...] = field(default=())
     ropes: tuple[Rope, ...] = field(default=())
     bodies: tuple[Bodies, ...] = field(default=())
+    bar_multiple: Array = field(default_factory=_single)
+    knot_multiple: Array = field(default_factory=_single)
+
+    def __post_init__(self) -> None:
+        """Fit multiples that are all 1, and fill up others; ValueError for more of these than bars or knots."""
+        for name, count in (("bar_multiple", self.bar_count), ("knot_multiple", self.knot_count)):
+            given = getattr(self, name)
+            if len(given) == count:
+                continue
+            if len(given) > count and np.any(given != 1.0):
+                raise ValueError(f"{name} has {len(given)} numbers for {count}")
+            fitted = np.concatenate([given[:count], np.ones(max(count - len(given), 0))])
+            object.__setattr__(self, name, fitted)
 
     @property
     def knot_count(self) -> int:

@@ -9,13 +9,15 @@ there, as in the pores of a twine. With t the thickness of the wall, D outside a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from .elastic import LinearLaw
 from .net import Net, Rope
+from .rigging import with_rope
 from .twine import Twine
 
 Contents = Literal["air", "water"]
@@ -126,8 +128,32 @@ class Tube:
             compression=True,
             bending_stiffness=modulus * self.second_moment,
             wall=self.wall,
-            yield_stress=None if self.rigid else self.yield_stress,
+            yield_stress=self.yield_stress,
         )
+
+
+def with_tubes(
+    net: Net,
+    knots: ArrayLike,
+    twine: Twine,
+    *,
+    tubes: int = 1,
+    name: str,
+    kind: str = "ring",
+    free: bool = False,
+) -> Net:
+    """Return the net with tubes side by side through some of its knots, made fast at each.
+
+    knots: (k,) of the net, in order, the last may be the first; twine: of a tube; tubes: how many; kind: "ring" or
+    "collar"; free: knots that were held are no longer. Errors as of with_rope.
+    """
+    path = np.asarray(knots, dtype=np.int64)
+    made = with_rope(net, path, twine, name=name, kind=kind)
+    multiple = made.bar_multiple.copy()
+    multiple[made.ropes[-1].bars] = tubes
+    fixed = made.fixed.copy()
+    fixed[path] &= not free
+    return replace(made, bar_multiple=multiple, fixed=fixed)
 
 
 def ring(
@@ -135,12 +161,14 @@ def ring(
     *,
     diameter: float,
     knots: int,
+    tubes: int = 1,
     centre: tuple[float, float, float] = (0.0, 0.0, 0.0),
     name: str = "ring",
 ) -> Net:
     """Lay a level ring of its own, held by nothing, its knots labelled "NAME:0", "NAME:1" ... anticlockwise from +x.
 
-    twine: of a tube; diameter: m, through its knots; knots: 3 or more; centre: m. The bars are unloaded as built.
+    twine: of a tube; diameter: m, through its knots; knots: 3 or more; tubes: side by side; centre: m. The bars are
+    unloaded as built.
     """
     if knots < 3 or not diameter > 0.0:
         raise ValueError(f"ring '{name}' of {knots} knots and {diameter:g} m across")
@@ -159,4 +187,5 @@ def ring(
         knot_density=np.full(knots, twine.density),
         load=np.zeros((knots, 3)),
         ropes=(Rope(name, round_it, np.arange(knots), "ring"),),
+        bar_multiple=np.full(knots, float(tubes)),
     )

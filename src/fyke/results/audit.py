@@ -125,6 +125,7 @@ def audit(system: System, result: Result) -> Audit:
     """
     if result.net.labels != system.net.labels or not np.array_equal(result.net.bars, system.net.bars):
         raise ValueError("the result is of another net than the system")
+    system = as_solved(system, result)
     last, el = result.frame(), system.elements
     mass, added_mass = _masses(system, last)
     load = last.water_force + el.weight + _of_parts(system, last)
@@ -143,11 +144,16 @@ def audit(system: System, result: Result) -> Audit:
     )
 
 
+def as_solved(system: System, result: Result) -> System:
+    """Return the system as the solver of a result took it."""
+    return system.resting() if result.outcome.solver.startswith("static") else system
+
+
 def forces_on_knots(system: System, frame: Frame) -> Array:
     """Water, weight, dead load, parts and tensions on every knot, (n, 3) N; what a held knot hands to its support."""
     el = system.elements
     t, _ = _directions(frame, el)
-    pull = frame.tension[:, None] * t
+    pull = (system.net.bar_multiple * frame.tension)[:, None] * t
     total = frame.water_force + el.weight + _of_parts(system, frame)
     np.add.at(total, el.knot_a, pull)
     np.subtract.at(total, el.knot_b, pull)
@@ -198,14 +204,14 @@ def _viscous(el: Elements, length: Array, rate: Array) -> Array:
     return np.where(el.two_way | (length > el.rest_length), damped - f, 0.0)
 
 
-def _elastic_length(el: Elements, frame: Frame) -> Array:
-    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's tension.
+def _elastic_length(el: Elements, frame: Frame, pull: Array) -> Array:
+    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's pull (m,) N.
 
     An implicit method knows tensions better than the law does from its positions, which stretch stiff bars falsely.
     """
     t, length = _directions(frame, el)
     rate = np.einsum("eq,eq->e", frame.velocity[el.knot_b] - frame.velocity[el.knot_a], t)
-    tension = borne(frame.tension - _viscous(el, length, rate), el)
+    tension = borne(pull - _viscous(el, length, rate), el)
     # A tube that pushes stores what it would pulled as hard.
     tension = np.abs(tension)
     row = el.law_first.astype(np.int64)
@@ -292,7 +298,10 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
         powers, result.time, axis=0
     ).tolist()
     kinetic = float(last.kinetic_energy - first.kinetic_energy)
-    stored = [elastic_energy(el, _elastic_length(el, frame)) for frame in (first, last)]
+    stored = [
+        elastic_energy(el, _elastic_length(el, frame, system.net.bar_multiple * frame.tension))
+        for frame in (first, last)
+    ]
     stretching = float(np.sum(stored[1] - stored[0]))
     potential = -float(np.sum(el.weight * (last.position - first.position)))
     return EnergyBudget(

@@ -9,7 +9,7 @@ their weight and of the water on them, what acts on its own knots and, where hel
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from ..solve.result import Result
 from ..system.system import System
 from .derive import drag_and_lift
 from .moved import HeldInertia, held_inertia
+from .rings import ring_figures
 from .tables import write_table
 from .volume import volume_history
 from .water import flow_direction
@@ -45,8 +46,8 @@ class PartFigures:
     without a flow; weight_in_water: N, under water; support_reaction: (3,) N, of the part on the supports;
     max_tension: N, max_tension_bar: its number and max_tension_bar_label its knots, None where all are slack;
     peak_tension: N, the largest of all frames; utilisation: largest of all frames over the breaking strength of its
-    twine, None where none is known; slack_bars: slack along their whole length; clearance: m, smallest height of all
-    frames above the sea bed, None without a depth.
+    twine, of a ring its stress over the yield stress, None where none is known; slack_bars: slack along their whole
+    length; clearance: m, smallest height of all frames above the sea bed, None without a depth.
     """
 
     kind: str
@@ -138,7 +139,7 @@ def _loads(system: System, frame: Frame) -> _Loads:
     bodies = [_on_bodies(one, system.water.density, wet, push, rest, displaced) for one in net.bodies]
     for one, force in zip(net.bodies, bodies, strict=True):
         np.subtract.at(own, one.knots, force)
-    return _Loads(on_bars, own, bodies, frame.tension[:, None] * t)
+    return _Loads(on_bars, own, bodies, (net.bar_multiple * frame.tension)[:, None] * t)
 
 
 def _on_bodies(one: Bodies, density: float, wet: Array, push: Array, rest: Array, displaced: Array) -> Array:
@@ -180,11 +181,13 @@ def by_part(system: System, result: Result, *, depth: float | None = None) -> tu
         name: _summed(len(pieces), bar_owner, a) + _summed(len(pieces), knot_owner, b)
         for name, (a, b) in sums.items()
     }
+    used = {(one.kind, one.name): one.utilisation for one in ring_figures(system, result)}
     told = [
         _of_piece(system, result, piece, {name: total[number] for name, total in totals.items()}, depth)
         for number, piece in enumerate(pieces)
         if piece.kind != OTHERS or piece.chains.size or piece.knots.size
     ]
+    told = [replace(one, utilisation=used.get((one.kind, one.name), one.utilisation)) for one in told]
     return (*told, *_of_bodies(system, result, loads, inertia, depth))
 
 
@@ -199,8 +202,8 @@ def _weights(system: System) -> tuple[Array, Array]:
     net, w = system.net, system.water
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
-    ball = np.pi / 6.0 * net.knot_diameter**3
-    bars = w.gravity * (density - w.density) * area * net.rest_length
+    ball = net.knot_multiple * np.pi / 6.0 * net.knot_diameter**3
+    bars = w.gravity * (density - w.density) * area * net.bar_multiple * net.rest_length
     return bars, w.gravity * (net.knot_density - w.density) * ball
 
 
@@ -228,7 +231,9 @@ def _of_piece(
         max_tension_bar_label=None if bar is None else net.bar_label(bar),
         peak_tension=float(peak.max(initial=0.0)),
         utilisation=float(np.max(peak / strength)) if np.isfinite(strength).any() else None,
-        slack_bars=int(np.count_nonzero(last[piece.chains].max(axis=1, initial=0.0) <= 0.0)),
+        slack_bars=int(
+            np.count_nonzero(np.all((last <= 0.0)[piece.chains] & ~net.two_way[piece.chains], axis=1))
+        ),
         clearance=_clearance(result, piece.knots, 0.0, depth),
     )
 
@@ -295,7 +300,8 @@ def part_figures(system: System, result: Result, *, depth: float | None = None) 
             "volume_unloaded": built,
             "volume_smallest": float(frames.min()),
         }
-    heights = [part.clearance for part in parts if part.clearance is not None]
+    # Lines come down to their anchors anyway.
+    heights = [part.clearance for part in parts if part.clearance is not None and part.kind != "line"]
     return told | ({"clearance": min(heights)} if heights else {})
 
 
@@ -307,12 +313,14 @@ def part_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
         words = f"{now:.4g} of {built:.4g} m³, {100.0 * (1.0 - now / built):.3g} % lost"
         rows.append(("volume", words + (f", {least:.4g} m³ at least" if least < now else "")))
     if "clearance" in figures:
-        rows.append(("clearance to the sea bed", f"{figures['clearance']:.4g} m"))
+        height = figures["clearance"]
+        words = f"{height:.4g} m" if height > 0.0 else f"none, it reaches {-height:.2g} m into it"
+        rows.append(("clearance to the sea bed", words))
     used = [part for part in figures.get("parts", ()) if part["utilisation"] is not None]
     if used:
         most = max(used, key=lambda part: float(part["utilisation"]))
         where = f"{most['kind']} {most['name']}".rstrip()
-        rows.append(("largest use of breaking strength", f"{100.0 * most['utilisation']:.3g} %, {where}"))
+        rows.append(("largest use of strength", f"{100.0 * most['utilisation']:.3g} %, {where}"))
     return rows
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, replace
 
 import numpy as np
@@ -13,17 +13,19 @@ from ..netting.faces import faces_of
 from ..netting.net import Net
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
+from ..water.bed import Bed
 from ..water.current import Current, UniformCurrent
 from ..water.inertia import AddedMassLaw
 from ..water.laws import Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
-from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
-from .rigging import rigged
+from .motion import Motion, Move
+from .moves import motion_of
+from .rigging import free_rings, rigged
 from .system import Displaced, System
 
 Array = NDArray[np.float64]
@@ -34,10 +36,11 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its netting in the order of the file, then its ropes, floats and sinkers."""
+    """Make the net of a case: its netting and rings of their own as the file has them, then the rest."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
-    return rigged(together([piece.lay(netting, twines[netting.twine]) for piece, netting in made]), case)
+    laid = [piece.lay(netting, twines[netting.twine]) for piece, netting in made] + free_rings(case)
+    return rigged(together(laid) if laid else None, case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -50,8 +53,9 @@ def build_system(net: Net, case: Case) -> System:
         coefficients=_coefficients(case),
         waves=_waves(case),
         surface=True,
+        bed=case.bed.ground(water.depth) if case.bed and water.depth else None,
     )
-    return replace(system, case_text=case.text)
+    return replace(system, case_text=case.text, motion=motion_of(net, case))
 
 
 def _waves(case: Case) -> Waves | None:
@@ -83,18 +87,19 @@ def make_system(
     waves: Waves | None = None,
     surface: bool = False,
     bed: Bed | None = None,
+    moves: Sequence[Move] = (),
 ) -> System:
     """Freeze a net in water: masses, weights and drag coefficients of every knot and bar.
 
     surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere; bed: the
-    ground that knots come to lie on.
+    ground that knots come to lie on; moves: of held knots, ValueError for free ones.
     """
     w = water or Water()
     c = coefficients or Coefficients()
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
-    volume = area * net.rest_length
-    knot_volume = np.pi / 6.0 * net.knot_diameter**3
+    volume = net.bar_multiple * area * net.rest_length
+    knot_volume = net.knot_multiple * np.pi / 6.0 * net.knot_diameter**3
     body_mass, body_volume = net.at_knots("mass"), net.at_knots("volume")
     mass = _to_knots(net, density * volume) + net.knot_density * knot_volume + body_mass
     sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
@@ -103,7 +108,7 @@ def make_system(
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
-    linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
+    linear = bool(np.all(rows[:, 3] == 0.0) and np.all(end - first == 1))
     knot_mass = mass + c.added_mass_knot * w.density * knot_volume
     damping = _retardation(net, ringing(net, stiffness, knot_mass))
     drag, drag_laws = _drag(net, w, c)
@@ -139,13 +144,15 @@ def make_system(
         surface=surface or waves is not None,
         faces=faces_of(net) if c.screens or c.wake or c.twines else None,
         bed=bed,
+        motion=Motion(net, moves) if moves else None,
         sources=(*_sources(net, c, damping, waves), *((bed.told,) if bed else ())),
     )
 
 
 def _drag(net: Net, w: Water, c: Coefficients) -> tuple[dict[str, Array], DragLaws | None]:
     """Fields of Elements that say how the water drags, and the laws that change them."""
-    scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
+    scale = 0.25 * w.density * net.bar_multiple * net.bar_diameter
+    disc = 0.5 * w.density * net.knot_multiple * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
             scale[panel.bars] = 0.0
@@ -204,6 +211,12 @@ def _sources(net: Net, c: Coefficients, damping: Array, waves: Waves | None) -> 
         _mass_source(c),
         *_wave_sources(waves),
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
+        *(
+            f"bending of '{t.name}': EI = {t.bending_stiffness:.4g} N m2, discrete elastic rods (M. Bergou et al., ACM "
+            "Trans. Graph. 27(3), 63, 2008, not opened; derived here and checked)"
+            for t in net.twines
+            if t.bending_stiffness > 0.0
+        ),
         *(
             f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
             for i, t in enumerate(net.twines)
@@ -289,14 +302,22 @@ def _to_knots(net: Net, per_bar: Array) -> Array:
 
 
 def _laws(net: Net) -> tuple[Array, NDArray[np.int32], NDArray[np.int32], Array]:
-    """Rows of all twines' laws, first and end row of every bar, and stiffness (N/m) of every bar."""
-    tables = [t.law.rows(t.diameter) for t in net.twines]
-    end = np.cumsum([len(t) for t in tables])
+    """Rows of all laws, first and end row of every bar, and stiffness (N/m) of every bar.
+
+    One law for every twine and every number of bars side by side, whose tensions add up.
+    """
+    multiples, place = np.unique(net.bar_multiple, return_inverse=True)
+    code = net.twine_of_bar * len(multiples) + place
+    there = np.bincount(code, minlength=len(net.twines) * len(multiples)) > 0
+    which = (np.cumsum(there) - 1)[code]
+    own = [t.law.rows(t.diameter) for t in net.twines]
+    kinds = [(k // len(multiples), multiples[k % len(multiples)]) for k in np.flatnonzero(there).tolist()]
+    tables = [own[twine] * np.array([1.0, many, many, many, 1.0]) for twine, many in kinds]
+    end = np.cumsum([len(t) for t in tables], dtype=np.int64)
     first = end - [len(t) for t in tables]
     secant = np.array([_tension(t, REFERENCE_STRAIN) / REFERENCE_STRAIN for t in tables])
-    which = net.twine_of_bar
     return (
-        np.concatenate(tables),
+        np.concatenate([np.empty((0, 5)), *tables]),
         first[which].astype(np.int32),
         end[which].astype(np.int32),
         secant[which] / net.rest_length,

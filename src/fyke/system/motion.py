@@ -131,6 +131,11 @@ class Motion:
         return max((course.steady_from for course in self._courses), default=0.0)
 
     @property
+    def tows(self) -> bool:
+        """Whether something goes on and on at a steady velocity."""
+        return any(isinstance(one, Steady) and one.rate.any() for move in self.moves for one in move.shifts)
+
+    @property
     def tow(self) -> Array:
         """Steady velocity at which the knots are towed, (3,) m/s, the mean over those that are moved."""
         total = np.zeros(3)
