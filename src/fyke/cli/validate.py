@@ -53,6 +53,7 @@ def validate_folder(folder: Path, wishes: Wishes) -> int:
             files,
             fast=wishes.fast,
             jobs=wishes.jobs,
+            draw=wishes.write and not wishes.only,
             on_progress=lambda done, of, name: show(done / of, name),
         )
     written = _write(folder, report, wishes) if wishes.write and not wishes.only else []
@@ -81,7 +82,9 @@ def _write(folder: Path, report: Report, wishes: Wishes) -> list[Path]:
     text, page = folder / "REPORT.md", folder / "report.html"
     with replacing(text) as part:
         part.write_text(markdown(report, version=__version__, command=command), encoding="utf-8")
-    write_page(page, table_cells(report), title=summary_line(report), command=command)
+    write_page(
+        page, table_cells(report), title=summary_line(report), command=command, pictures=report.pictures
+    )
     return [text, page]
 
 

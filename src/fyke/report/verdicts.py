@@ -32,7 +32,7 @@ def write_page(
     path: Path, levels: Levels, *, title: str, command: str, pictures: Mapping[str, bytes] | None = None
 ) -> None:
     """Write the page to a file that appears whole or not at all; pictures: PNG by name of the claim."""
-    drawn = {"All rows": _png(misses(levels))} | dict(pictures or {})
+    drawn = {"All rows": as_png(misses(levels))} | dict(pictures or {})
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -77,7 +77,8 @@ def misses(levels: Levels) -> Figure:
 
 
 @styled
-def _png(figure: Figure) -> bytes:
+def as_png(figure: Figure) -> bytes:
+    """Picture of a figure, as bytes of PNG."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", **OPTIONS["png"])
     return buffer.getvalue()

@@ -1,8 +1,8 @@
 """Claims: what fyke says it can do, each with what it is compared with, how closely it must agree, and why.
 
 A claim is a TOML file of a folder; what it measures is a case file, whose summary is asked by key, or a script beside
-it with a function measure(tables) that yields Found. Tables are CSV files with the unit of a column at the end of its
-name.
+it with a function measure(tables) that yields Found, and picture(found) where there is something to draw; or nothing,
+where all its rows are missing. Tables are CSV files with the unit of a column at the end of its name.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import csv
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any, Literal
 
@@ -33,7 +33,7 @@ LEVELS: dict[Level, str] = {
 FOUND, MISSING, NONE = "found", "missing", "none"
 WORDS = (FOUND, MISSING, NONE)
 
-_KEYS = {"title", "level", "source", "fast", "script", "case", "data", "row"}
+_KEYS = {"title", "level", "source", "fast", "script", "case", "needs", "data", "row"}
 _NEEDED = ("title", "level", "source", "row")
 _ROW_KEYS = {"quantity", "key", "unit", "reference", "tolerance", "relative", "reason"}
 _TABLE_KEYS = {"file", "columns"}
@@ -67,7 +67,10 @@ class RowSpec:
 
 @dataclass(frozen=True)
 class TableSpec:
-    """A CSV file and the unit of each column that is used; "text" for one that is no number."""
+    """A CSV file and the unit of each column that is used: "text" for one that is no number, "1" for one without unit.
+
+    A cell of a unit that ends in "?" may be empty, which reads as nan.
+    """
 
     file: str
     columns: dict[str, str]
@@ -75,7 +78,11 @@ class TableSpec:
 
 @dataclass(frozen=True)
 class Claim:
-    """One file of claims; fast: cheap enough for a run at every change; exactly one of script and case is given."""
+    """One file of claims.
+
+    fast: cheap enough for a run at every change; script, case: what is measured, one of them, or neither where every
+    row is missing; needs: names of packages without which its rows are missing.
+    """
 
     file: Path
     title: str
@@ -85,6 +92,7 @@ class Claim:
     fast: bool = True
     script: str | None = None
     case: str | None = None
+    needs: tuple[str, ...] = ()
     data: tuple[tuple[str, TableSpec], ...] = ()
 
     @property
@@ -135,11 +143,12 @@ def read_claim(file: Path) -> Claim:
                 f"{file}, level", repr(raw["level"]), ", ".join(LEVELS), f"write {near or 'one of these'}"
             )
         )
-    if ("script" in raw) == ("case" in raw):
-        found = "both" if "script" in raw else "neither"
-        problems.append(Problem(str(file), f"{found} of script and case", "one of them", "give one"))
     rows, data = raw.get("row", []), raw.get("data", {})
     specs = [_row(f"{file}, row {number}", one, problems) for number, one in enumerate(rows, 1)]
+    nothing = all(spec and spec.reference == MISSING for spec in specs)
+    if ("script" in raw and "case" in raw) or not ("script" in raw or "case" in raw or nothing):
+        found = "both" if "script" in raw else "neither"
+        problems.append(Problem(str(file), f"{found} of script and case", "one of them", "give one"))
     for name, one in data.items():
         problems += _unknown(f"{file}, data.{name}", one, _TABLE_KEYS)
         if not ("file" in one and "columns" in one):
@@ -155,6 +164,7 @@ def read_claim(file: Path) -> Claim:
         fast=bool(raw.get("fast", True)),
         script=raw.get("script"),
         case=raw.get("case"),
+        needs=tuple(raw.get("needs", ())),
         data=tuple((name, TableSpec(one["file"], one["columns"])) for name, one in data.items()),
     )
 
@@ -218,9 +228,9 @@ def _table(file: Path, spec: TableSpec) -> list[Row]:
     there = list(rows[0]) if rows else []
     problems, columns = [], {}
     for name, unit in spec.columns.items():
-        plain = unit in {"text", "1"}
-        wanted = name if plain else f"{name}_{unit.replace('/', '_')}"
-        same = [wanted, wanted if plain else f"{name}_{unit.replace('/', '_per_')}"]
+        plain, own = unit in {"text", "1", "1?"}, unit.rstrip("?")
+        wanted = name if plain else f"{name}_{own.replace('/', '_')}"
+        same = [wanted, wanted if plain else f"{name}_{own.replace('/', '_per_')}"]
         if any(one in there for one in same):
             columns[name] = next(one for one in same if one in there)
             continue
@@ -241,6 +251,8 @@ def _table(file: Path, spec: TableSpec) -> list[Row]:
 def _value(file: Path, number: int, text: str | None, unit: str) -> float | str:
     if unit == "text":
         return text or ""
+    if unit.endswith("?") and not text:
+        return nan
     try:
         return float(text or "")
     except ValueError:

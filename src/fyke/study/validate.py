@@ -6,13 +6,14 @@ import importlib.util
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from dataclasses import dataclass
 from math import isfinite
 from multiprocessing import get_context
 from pathlib import Path
+from types import ModuleType
 from typing import Any, Literal
 
 from ..case import load_case
@@ -60,11 +61,21 @@ class Judged:
 
 
 @dataclass(frozen=True)
+class Judgement:
+    """Rows of one claim, the seconds that it took, and its picture (PNG) where it has one and it was asked for."""
+
+    rows: tuple[Judged, ...]
+    seconds: float
+    picture: bytes | None = None
+
+
+@dataclass(frozen=True)
 class Report:
-    """All rows, and the seconds that each claim took."""
+    """All rows, the seconds that each claim took, and the pictures (PNG) by the titles of their claims."""
 
     rows: tuple[Judged, ...]
     seconds: dict[str, float]
+    pictures: dict[str, bytes]
 
     @property
     def ok(self) -> bool:
@@ -77,34 +88,49 @@ class Report:
 
 
 def validate(
-    files: Sequence[Path], *, fast: bool = False, jobs: int = 1, on_progress: Progress | None = None
+    files: Sequence[Path],
+    *,
+    fast: bool = False,
+    jobs: int = 1,
+    draw: bool = False,
+    on_progress: Progress | None = None,
 ) -> Report:
-    """Run claims, given by their files; fast: leave out those that take long; jobs: so many at a time.
+    """Run claims, given by their files.
 
-    A claim that cannot be read, measured or brought to convergence is a row that fails.
+    fast: leave out those that take long; jobs: so many at a time; draw: draw their pictures too. A claim that cannot be
+    read, measured or brought to convergence is a row that fails.
     """
     wanted = [file for file in files if not fast or _is_fast(file)]
-    rows: list[tuple[Judged, ...]] = []
-    seconds: dict[str, float] = {}
-    done = _in_processes(wanted, jobs) if jobs > 1 else ((file, *judge(file)) for file in wanted)
-    for number, (file, judged, took) in enumerate(done, 1):
-        rows.append(judged)
-        seconds[file.stem] = took
+    found: dict[Path, Judgement] = {}
+    for file, judgement in _in_processes(wanted, jobs, draw) if jobs > 1 else _here(wanted, draw):
+        found[file] = judgement
         if on_progress is not None:
-            on_progress(number, len(wanted), file.stem)
-    return Report(tuple(row for some in rows for row in some), seconds)
+            on_progress(len(found), len(wanted), file.stem)
+    ordered = [found[file] for file in wanted]
+    return Report(
+        rows=tuple(row for judgement in ordered for row in judgement.rows),
+        seconds={file.stem: found[file].seconds for file in wanted},
+        pictures={one.rows[0].title: one.picture for one in ordered if one.picture},
+    )
 
 
-def judge(file: Path) -> tuple[tuple[Judged, ...], float]:
-    """Run one claim; return its rows and the seconds it took."""
+def judge(file: Path, *, draw: bool = False) -> Judgement:
+    """Run one claim."""
     began = time.perf_counter()
+    picture = None
     try:
         claim = read_claim(file)
     except CaseError as error:
         rows: tuple[Judged, ...] = (_broken(file, str(error)),)
     else:
-        rows = tuple(_judged(claim))
-    return rows, time.perf_counter() - began
+        measured = _measured(claim)
+        rows = tuple(_judged(claim, measured))
+        if draw and measured.module is not None and not measured.wrong:
+            try:
+                picture = _picture(measured)
+            except Exception as error:
+                rows += (_broken(file, f"its picture: {_last_lines(error)}", claim),)
+    return Judgement(rows, time.perf_counter() - began, picture)
 
 
 def _is_fast(file: Path) -> bool:
@@ -114,35 +140,53 @@ def _is_fast(file: Path) -> bool:
         return True  # to be told as a row that fails
 
 
-def _in_processes(files: Sequence[Path], jobs: int) -> Iterator[tuple[Path, tuple[Judged, ...], float]]:
+def _here(files: Sequence[Path], draw: bool) -> Iterator[tuple[Path, Judgement]]:
+    for file in files:
+        yield file, judge(file, draw=draw)
+
+
+def _in_processes(files: Sequence[Path], jobs: int, draw: bool) -> Iterator[tuple[Path, Judgement]]:
     # Fresh processes: a fork of one whose kernels have started threads may hang.
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        waiting: list[Future[tuple[tuple[Judged, ...], float]]] = [pool.submit(judge, file) for file in files]
-        for file, future in zip(files, waiting, strict=True):
-            yield file, *future.result()
+        waiting = {pool.submit(judge, file, draw=draw): file for file in files}
+        for future in as_completed(waiting):
+            yield waiting[future], future.result()
 
 
-def _judged(claim: Claim) -> Iterator[Judged]:
-    try:
-        found = list(_measured(claim))
-    except Exception as error:
-        # Whatever a script raises is its own rows' fault: the others still run.
-        told = str(error) if isinstance(error, CaseError) else _last_lines(error)
-        for spec in claim.rows:
-            yield _line(claim, spec, None, "fails", told)
-        return
+@dataclass
+class _Measured:
+    """What was found before something went wrong, if it did; module: the script; absent: why nothing could be."""
+
+    found: list[Found]
+    wrong: str = ""
+    absent: str = ""
+    module: ModuleType | None = None
+
+
+def _judged(claim: Claim, measured: _Measured) -> Iterator[Judged]:
+    found = measured.found
     for spec in claim.rows:
         own = [one for one in found if one.key == spec.key]
         if not own:
-            known = ", ".join(sorted({one.key for one in found})) or "nothing"
-            yield _line(
-                claim, spec, None, "fails", f"nothing was measured for '{spec.key}'; there is {known}"
-            )
+            yield _line(claim, spec, None, *_nothing(claim, spec, measured))
         for one in own:
             yield _line(claim, spec, one, *_verdict(spec, one))
+    if measured.wrong and found:
+        yield _broken(claim.file, measured.wrong, claim)
     for key in sorted({one.key for one in found} - {spec.key for spec in claim.rows}):
-        if claim.script:
-            yield _broken(claim.file, f"'{key}' was measured and no row asks for it", claim)
+        yield _broken(claim.file, f"'{key}' was measured and no row asks for it", claim)
+
+
+def _nothing(claim: Claim, spec: RowSpec, measured: _Measured) -> tuple[Verdict, str]:
+    """Verdict on a row for which nothing was found."""
+    if measured.wrong:
+        return "fails", measured.wrong
+    if measured.absent:
+        return "missing", measured.absent
+    if spec.reference == MISSING and not (claim.script or claim.case):
+        return "missing", spec.reason
+    known = ", ".join(sorted({one.key for one in measured.found})) or "nothing"
+    return "fails", f"nothing was measured for '{spec.key}'; there is {known}"
 
 
 def _verdict(spec: RowSpec, one: Found) -> tuple[Verdict, str]:
@@ -201,20 +245,45 @@ def _broken(file: Path, told: str, claim: Claim | None = None) -> Judged:
     )
 
 
-def _measured(claim: Claim) -> Iterable[Found]:
-    """Measure what a claim is about."""
-    tables = claim.tables()
-    if claim.script is None:
-        return _of_case(claim)
-    file = claim.file.parent / claim.script
+def _measured(claim: Claim) -> _Measured:
+    """Measure what a claim is about. Whatever a script raises is its own rows' fault: the others still run."""
+    out = _Measured([])
+    lacking = [name for name in claim.needs if importlib.util.find_spec(name) is None]
+    if lacking:
+        out.absent = f"not installed: {', '.join(lacking)}; pip install {' '.join(lacking)}"
+        return out
+    try:
+        tables = claim.tables()
+        if claim.script is not None:
+            out.module = _script(claim.file.parent / claim.script)
+            out.found.extend(out.module.measure(tables))
+        elif claim.case is not None:
+            out.found.extend(_of_case(claim))
+    except CaseError as error:
+        out.wrong = str(error)
+    except Exception as error:
+        out.wrong = _last_lines(error)
+    return out
+
+
+def _script(file: Path) -> ModuleType:
     spec = importlib.util.spec_from_file_location(f"fyke_validation_{file.stem}", file)
     if spec is None or spec.loader is None or not file.is_file():
         raise FileNotFoundError(f"no script {file}")
     module = importlib.util.module_from_spec(spec)
     with _beside(file.parent):
         spec.loader.exec_module(module)
-    measured: Iterable[Found] = module.measure(tables)
-    return measured
+    return module
+
+
+def _picture(measured: _Measured) -> bytes | None:
+    """Draw what a script has to show."""
+    picture = getattr(measured.module, "picture", None)
+    if picture is None:
+        return None
+    from ..report.verdicts import as_png
+
+    return as_png(picture(measured.found))
 
 
 @contextmanager
