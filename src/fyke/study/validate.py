@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import sys
 import time
 import traceback
@@ -27,6 +28,7 @@ Verdict = Literal["holds", "fails", "missing", "shown"]
 Progress = Callable[[int, int, str], None]
 # Lines of a fault that are told.
 TOLD = 3
+STANDARD_OUTPUT = 1
 
 
 @dataclass(frozen=True)
@@ -209,6 +211,7 @@ def _reference(spec: RowSpec, one: Found) -> float | None:
 
 
 def _line(claim: Claim, spec: RowSpec, one: Found | None, verdict: Verdict, reason: str) -> Judged:
+    reference = _reference(spec, one) if one else None
     return Judged(
         claim=claim.name,
         title=claim.title,
@@ -217,9 +220,10 @@ def _line(claim: Claim, spec: RowSpec, one: Found | None, verdict: Verdict, reas
         quantity=spec.quantity,
         unit=spec.unit,
         ours=one.ours if one else None,
-        reference=_reference(spec, one) if one else None,
+        reference=reference,
         tolerance=spec.tolerance,
-        relative=spec.relative,
+        # What is shown beside another figure is told in per cent of it.
+        relative=spec.relative or (verdict == "shown" and bool(reference)),
         verdict=verdict,
         reason=reason,
         source=claim.source,
@@ -254,11 +258,12 @@ def _measured(claim: Claim) -> _Measured:
         return out
     try:
         tables = claim.tables()
-        if claim.script is not None:
-            out.module = _script(claim.file.parent / claim.script)
-            out.found.extend(out.module.measure(tables))
-        elif claim.case is not None:
-            out.found.extend(_of_case(claim))
+        with _silent():
+            if claim.script is not None:
+                out.module = _script(claim.file.parent / claim.script)
+                out.found.extend(out.module.measure(tables))
+            elif claim.case is not None:
+                out.found.extend(_of_case(claim))
     except CaseError as error:
         out.wrong = str(error)
     except Exception as error:
@@ -284,6 +289,20 @@ def _picture(measured: _Measured) -> bytes | None:
     from ..report.verdicts import as_png
 
     return as_png(picture(measured.found))
+
+
+@contextmanager
+def _silent() -> Iterator[None]:
+    """Let nothing through that other programs print, from compiled code too: standard output is the command's own."""
+    sys.stdout.flush()
+    with open(os.devnull, "wb") as nowhere:
+        kept = os.dup(STANDARD_OUTPUT)
+        os.dup2(nowhere.fileno(), STANDARD_OUTPUT)
+        try:
+            yield
+        finally:
+            os.dup2(kept, STANDARD_OUTPUT)
+            os.close(kept)
 
 
 @contextmanager
