@@ -24,7 +24,12 @@ def measure(tables):
     for row in tables["waves"]:
         sea = airy(row["H"], row["T"], depth=row["h"], stretching="none")
         case = f"{row['T']:g} s, {row['h']:g} m deep, z = {row['z'] + 0.0:g} m"
-        yield Found("length", 2.0 * math.pi / wavenumber(2.0 * math.pi / row["T"], row["h"], G), row["wavelength"], case)
+        yield Found(
+            "length",
+            2.0 * math.pi / wavenumber(2.0 * math.pi / row["T"], row["h"], G),
+            row["wavelength"],
+            case,
+        )
         yield Found("along", motion(sea, row["z"], 0.0)[0][0], row["u_amp"], case)
         velocity, acceleration = motion(sea, row["z"], -row["T"] / 6.0)
         yield Found("up", velocity[2] / SIXTH, row["w_amp"], case)

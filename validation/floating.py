@@ -30,9 +30,13 @@ def measure(tables):
     for density in (250.0, 500.0, 900.0):
         x = np.zeros((41, 3))
         x[:, 0] = np.linspace(0.0, 10.0, 41)
-        middle = settled(fyke.line(rope(density), x, 1.05 * 10.0 / 40), current=(0.0, 0.3, 0.0)).position[-1][20, 2]
+        middle = settled(fyke.line(rope(density), x, 1.05 * 10.0 / 40), current=(0.0, 0.3, 0.0)).position[-1][
+            20, 2
+        ]
         # A level bar is a ramp: the part density / 1000 of its height is under water; a current holds it taut.
-        yield Found("rope", middle, 0.5 * DIAMETER * (1.0 - 2.0 * density / RHO), f"rope of {density:g} kg/m3")
+        yield Found(
+            "rope", middle, 0.5 * DIAMETER * (1.0 - 2.0 * density / RHO), f"rope of {density:g} kg/m3"
+        )
     ball = fyke.line(
         fyke.Twine("thin", RHO, 1e-5, fyke.LinearLaw(1e9)),
         [[0, 0, -1.0], [0, 0, 0.3]],

@@ -98,7 +98,8 @@ def diamond_errors(row):
 
 def measure(tables):
     cases = [
-        (f"squares from {part:g} of their height", square_sheet(tables["squares"], part)) for part in (0.5, 1.0, 1.3)
+        (f"squares from {part:g} of their height", square_sheet(tables["squares"], part))
+        for part in (0.5, 1.0, 1.3)
     ]
     cases += [(f"diamonds hung at {row['E']:.4g}", diamond_errors(row)) for row in tables["diamonds"]]
     for case, (place, tension) in cases:

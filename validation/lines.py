@@ -44,7 +44,9 @@ def draw_orders(curves, order, *, by, what):
     for name, (counts, errors) in curves.items():
         axes.loglog(counts, errors, "o-", markersize=3, linewidth=1, label=name)
     counts, errors = (np.array(one) for one in max(curves.values(), key=lambda curve: curve[1][0]))
-    axes.loglog(counts, 2.0 * errors[0] * (counts[0] / counts) ** order, "k--", linewidth=0.8, label=f"order {order}")
+    axes.loglog(
+        counts, 2.0 * errors[0] * (counts[0] / counts) ** order, "k--", linewidth=0.8, label=f"order {order}"
+    )
     axes.set_xlabel(by)
     axes.set_ylabel(what)
     axes.legend(fontsize=7)

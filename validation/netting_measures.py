@@ -40,7 +40,9 @@ def covered(net, cell, pixels=400):
     """
     rng = np.random.default_rng(0)
     plan = net.panels[0].flat
-    corners = np.stack(np.meshgrid(np.arange(pixels), np.arange(pixels), indexing="ij"), axis=-1).reshape(-1, 2)
+    corners = np.stack(np.meshgrid(np.arange(pixels), np.arange(pixels), indexing="ij"), axis=-1).reshape(
+        -1, 2
+    )
     points = (corners + rng.uniform(size=corners.shape)) / pixels * cell
     solid = np.zeros(len(points), dtype=bool)
     for a, b in net.bars:
@@ -63,7 +65,9 @@ def solidities():
         for diameter in (0.0015, 0.003):
             net = hung("square", 1.0, diameter, knot)
             case = f"squares of {1e3 * diameter:g} mm twine, knots of {1e3 * knot:g} mm"
-            yield Found("solidity", measure_panel(net, net.panels[0]).solidity, covered(net, (BAR, BAR)), case)
+            yield Found(
+                "solidity", measure_panel(net, net.panels[0]).solidity, covered(net, (BAR, BAR)), case
+            )
     yield Found("square", solidity("square", BAR, (1.0, 1.0), TWINE))
 
 
@@ -92,7 +96,9 @@ def added(net):
     out = []
     for density in (1000.0, 0.0):
         mass = np.empty((2, 6))
-        mass_matrices(line.positions, fyke.make_system(line, water=fyke.Water(density=density)).elements, mass)
+        mass_matrices(
+            line.positions, fyke.make_system(line, water=fyke.Water(density=density)).elements, mass
+        )
         out.append(mass.sum(axis=0))
     return out[0] - out[1]
 
@@ -104,7 +110,10 @@ def measure(tables):
     yield Found("twine area", figures.twine_area, BARS * TWINE * BAR)
     yield Found("rtex", figures.rtex)
     # Rtex / (a E1 E2) for the twine, and a ball for every two bars.
-    per_area = 1140.0 * np.pi / 4.0 * TWINE**2 / (BAR * (0.3055 / 0.48) ** 2) + 128 * 1140.0 * BALL_VOLUME / 0.3055**2
+    per_area = (
+        1140.0 * np.pi / 4.0 * TWINE**2 / (BAR * (0.3055 / 0.48) ** 2)
+        + 128 * 1140.0 * BALL_VOLUME / 0.3055**2
+    )
     yield Found("mass per area", figures.mass_per_area, per_area)
     volume = BARS * BAR_VOLUME + KNOTS * BALL_VOLUME
     yield Found("mass", measure_net(net).mass, 1140.0 * volume)

@@ -14,7 +14,9 @@ CYLINDERS, SPHERES = measured.cylinder(), measured.sphere()
 def made(kind):
     """Laws of a kind but for the user's tables, and a law of the solidity, which one cylinder has not."""
     return {
-        name: law() for name, law in LAWS[kind].items() if not name.endswith("table") and name != "cifuentes-kim"
+        name: law()
+        for name, law in LAWS[kind].items()
+        if not name.endswith("table") and name != "cifuentes-kim"
     }
 
 
@@ -45,7 +47,11 @@ def measure(tables):
                 count, rms, _ = off(law, points, low, high)
                 yield Found(f"{body} in its range", rms, case=f"{name}, {count} points")
             count, rms, mean = off(law, points, max(low, NETTING[0]), min(high, NETTING[1]))
-            key = "at netting, best" if name in {"ns-cheng", "kristiansen-faltinsen", "clift-gauvin"} else "at netting"
+            key = (
+                "at netting, best"
+                if name in {"ns-cheng", "kristiansen-faltinsen", "clift-gauvin"}
+                else "at netting"
+            )
             yield Found(key, rms, case=f"{body}, {name}, {count} points")
             yield Found("mean", mean, case=f"{body}, {name}, {count} points")
 

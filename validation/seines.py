@@ -55,7 +55,9 @@ def sinking_speed(fibre):
     first = np.argmax(depth > DOWN * DEPTH)
     if not first:
         raise RuntimeError(f"{fibre}: the leadline came down to {depth.max():.2f} m only")
-    return DOWN * DEPTH / np.interp(DOWN * DEPTH, depth[first - 1 : first + 1], run.time[first - 1 : first + 1])
+    return (
+        DOWN * DEPTH / np.interp(DOWN * DEPTH, depth[first - 1 : first + 1], run.time[first - 1 : first + 1])
+    )
 
 
 def measure(tables):
@@ -63,4 +65,6 @@ def measure(tables):
     for fibre, speed in speeds.items():
         yield Found("speed", sinking_speed(fibre), speed, fibre)
     for key, one, other in (("fitted", "PES", "PA"), ("ratio", "PP", "PA")):
-        yield Found(key, sinking_speed(one) / sinking_speed(other), speeds[one] / speeds[other], f"{one} over {other}")
+        yield Found(
+            key, sinking_speed(one) / sinking_speed(other), speeds[one] / speeds[other], f"{one} over {other}"
+        )

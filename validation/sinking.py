@@ -1,4 +1,4 @@
-"""A sphere and a level bar sinking from rest, rising when light: v = v_t tanh(t / tau), z = v_t tau ln cosh(t / tau)."""
+"""A sphere and a level bar sinking from rest: v = v_t tanh(t / tau), z = v_t tau ln cosh(t / tau)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,9 @@ EXACT = fyke.Verner(rtol=1e-10, atol=1e-12)
 SPHERE = fyke.Coefficients(
     bars=fyke.ConstantBar(0.0, 0.0), knots=fyke.ConstantKnot(0.47), added_mass_bar=0.0, added_mass_knot=0.5
 )
-CYLINDER = fyke.Coefficients(bars=fyke.ConstantBar(1.2, 0.1), knots=fyke.ConstantKnot(0.0), added_mass_bar=1.0)
+CYLINDER = fyke.Coefficients(
+    bars=fyke.ConstantBar(1.2, 0.1), knots=fyke.ConstantKnot(0.0), added_mass_bar=1.0
+)
 
 
 def sphere(diameter, density):

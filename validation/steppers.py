@@ -37,7 +37,9 @@ def on_sphere(method, steps):
     """Largest error of speed and depth within two time scales of a sphere let go."""
     speed = np.sqrt(4.0 / 3.0 * 0.14 * 9.81 * 0.01 / 0.47)
     tau = time_scale(speed, 1140.0, 0.5)
-    run = fyke.simulate(sphere(0.01, 1140.0), duration=2 * tau, every=tau, stepper=with_steps(method, tau / steps))
+    run = fyke.simulate(
+        sphere(0.01, 1140.0), duration=2 * tau, every=tau, stepper=with_steps(method, tau / steps)
+    )
     return sinking_errors(run, speed, tau).max()
 
 

@@ -51,7 +51,9 @@ def of_one_bar(seed):
     step = 1e-30
     by_place = [complex_water(d + 1j * step * e, w, cn, ct).imag / step for e in np.eye(3)]
     by_speed = [complex_water(d, w + 1j * step * e, cn, ct).imag / step for e in np.eye(3)]
-    return max(np.abs(turn - np.column_stack(by_place)).max(), np.abs(press - np.column_stack(by_speed)).max())
+    return max(
+        np.abs(turn - np.column_stack(by_place)).max(), np.abs(press - np.column_stack(by_speed)).max()
+    )
 
 
 def bellied(laws, current, height):
@@ -95,7 +97,9 @@ def of_wet_parts(step=1e-7):
         _, by_a, by_b = wet_bar(a, b, 0.01)
         off.append(by_a - (wet_bar(a + step, b, 0.01)[0] - wet_bar(a - step, b, 0.01)[0]) / (2 * step))
         off.append(by_b - (wet_bar(a, b + step, 0.01)[0] - wet_bar(a, b - step, 0.01)[0]) / (2 * step))
-        off.append(wet_knot(a, 0.02)[1] - (wet_knot(a + step, 0.02)[0] - wet_knot(a - step, 0.02)[0]) / (2 * step))
+        off.append(
+            wet_knot(a, 0.02)[1] - (wet_knot(a + step, 0.02)[0] - wet_knot(a - step, 0.02)[0]) / (2 * step)
+        )
     return np.abs(off).max() * 0.02
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 import fyke
@@ -29,7 +31,9 @@ def worst(law, exact, slope):
 
 def measure(tables):
     area = np.pi / 4.0 * DIAMETER**2
-    yield Found("law", worst(fyke.LinearLaw(1e9), lambda e: 1e9 * area * e, lambda e: 1e9 * area), case="linear")
+    yield Found(
+        "law", worst(fyke.LinearLaw(1e9), lambda e: 1e9 * area * e, lambda e: 1e9 * area), case="linear"
+    )
     yield Found(
         "law",
         worst(
@@ -47,7 +51,7 @@ def measure(tables):
     rows = tables["twine"]
     points = np.array([[0.01 * row["strain_twisted"], row["load"]] for row in rows])
     table = fyke.TableLaw(tuple(points[:, 0]), tuple(points[:, 1]))
-    for (below, low), (above, high) in zip(points[:-1], points[1:], strict=True):
+    for (below, low), (above, high) in pairwise(points):
         middle = tension(table, 0.5 * (below + above))[0]
         yield Found("table", middle, 0.5 * (low + high), f"strain {0.5 * (below + above):.4f}")
     for row in tables["fibres"]:

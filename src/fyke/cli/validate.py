@@ -112,13 +112,19 @@ def _alike(rows: list[Judged]) -> list[list[Judged]]:
     for row in rows:
         alone = row.case if row.verdict == "fails" else ""
         together.setdefault((row.claim, row.quantity, alone), []).append(row)
-    return [sorted(some, key=lambda row: -abs(row.difference or 0.0)) for some in together.values()]
+    return [sorted(some, key=_size, reverse=True) for some in together.values()]
+
+
+def _size(row: Judged) -> float:
+    """How far off a row is, or how large where there is nothing to be off from."""
+    return abs((row.ours if row.difference is None else row.difference) or 0.0)
 
 
 def _show_rows(console: Console, rows: list[Judged]) -> None:
     """Print the first of rows that are alike."""
     row = rows[0]
-    where = f"worst of {len(rows)}: {row.case}" if len(rows) > 1 and row.difference is not None else row.case
+    worst = "largest" if row.difference is None else "worst"
+    where = f"{worst} of {len(rows)}: {row.case}" if len(rows) > 1 else row.case
     what = f"{row.claim}, {row.quantity}{f' ({row.unit})' if row.unit else ''}{f', {where}' if where else ''}"
     console.print(Text(f"  {what}", overflow="ellipsis", no_wrap=True))
     percent = 100.0 if row.relative else 1.0

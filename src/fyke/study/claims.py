@@ -35,7 +35,9 @@ WORDS = (FOUND, MISSING, NONE)
 
 _KEYS = {"title", "level", "source", "fast", "script", "case", "needs", "data", "row"}
 _NEEDED = ("title", "level", "source", "row")
-_ROW_KEYS = {"quantity", "key", "unit", "reference", "tolerance", "relative", "reason"}
+_ROW_KEYS = {"quantity", "key", "unit", "reference", "tolerance", "relative", "side", "reason"}
+# Which side of the reference a value may be on, and how far beyond it is in the tolerance.
+SIDES = ("both", "above", "below")
 _TABLE_KEYS = {"file", "columns"}
 
 Row = dict[str, float | str]
@@ -54,7 +56,7 @@ class Found:
 
 @dataclass(frozen=True)
 class RowSpec:
-    """One quantity of a claim: reference a number or one of WORDS; tolerance absolute, or over the reference."""
+    """One quantity of a claim: reference a number or one of WORDS; tolerance absolute, or over the reference; side."""
 
     quantity: str
     key: str
@@ -63,6 +65,7 @@ class RowSpec:
     tolerance: float | None
     relative: bool
     reason: str
+    side: str = "both"
 
 
 @dataclass(frozen=True)
@@ -189,6 +192,8 @@ def _row(where: str, raw: dict[str, Any], problems: list[Problem]) -> RowSpec | 
         wrong.append(
             Problem(f"{where}, reference", repr(reference), f"a number or {', '.join(WORDS)}", "give one")
         )
+    if raw.get("side", "both") not in SIDES:
+        wrong.append(Problem(f"{where}, side", repr(raw["side"]), ", ".join(SIDES), "write one of these"))
     judged = reference not in {MISSING, NONE}
     given = [key for key in ("tolerance", "relative") if key in raw]
     if judged and len(given) != 1:
@@ -215,6 +220,7 @@ def _row(where: str, raw: dict[str, Any], problems: list[Problem]) -> RowSpec | 
         tolerance=float(raw[given[0]]) if given else None,
         relative="relative" in raw,
         reason=raw["reason"],
+        side=raw.get("side", "both"),
     )
 
 

@@ -44,7 +44,12 @@ def table_cells(report: Report) -> list[tuple[str, list[dict[str, Any]]]]:
 
 
 def _told(row: Judged) -> dict[str, Any]:
-    judged = row.tolerance and row.difference is not None and row.verdict in {"holds", "fails"}
+    judged = (
+        row.tolerance
+        and row.side == "both"
+        and row.difference is not None
+        and row.verdict in {"holds", "fails"}
+    )
     return {
         "claim": row.claim,
         "cells": cells(row),
@@ -110,4 +115,6 @@ def _difference(row: Judged) -> str:
 def _tolerance(row: Judged) -> str:
     if row.tolerance is None or row.verdict in {"missing", "shown"}:
         return ""
-    return f"{100.0 * row.tolerance:.2g} %" if row.relative else f"{row.tolerance:.2g} {row.unit}".rstrip()
+    sides = {"both": "", "above": "at least ", "below": "at most "}
+    told = f"{100.0 * row.tolerance:.2g} %" if row.relative else f"{row.tolerance:.2g} {row.unit}".rstrip()
+    return sides[row.side] + ("it" if row.side != "both" and not row.tolerance else told)

@@ -2,33 +2,21 @@
 
 from __future__ import annotations
 
-import importlib.util
-import os
-import sys
 import time
-import traceback
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from contextlib import contextmanager
 from dataclasses import dataclass
 from math import isfinite
 from multiprocessing import get_context
 from pathlib import Path
-from types import ModuleType
-from typing import Any, Literal
+from typing import Literal
 
-from ..case import load_case
 from ..case.errors import CaseError
-from ..results import flow_direction, part_figures, summary
-from ..solve.run import solve_case
-from ..system.build import build_net, build_system
 from .claims import MISSING, NONE, Claim, Found, Level, RowSpec, read_claim
+from .measure import Measured, last_lines, measure, picture_of
 
 Verdict = Literal["holds", "fails", "missing", "shown"]
 Progress = Callable[[int, int, str], None]
-# Lines of a fault that are told.
-TOLD = 3
-STANDARD_OUTPUT = 1
 
 
 @dataclass(frozen=True)
@@ -52,6 +40,7 @@ class Judged:
     verdict: Verdict
     reason: str
     source: str
+    side: str = "both"
 
     @property
     def difference(self) -> float | None:
@@ -125,13 +114,13 @@ def judge(file: Path, *, draw: bool = False) -> Judgement:
     except CaseError as error:
         rows: tuple[Judged, ...] = (_broken(file, str(error)),)
     else:
-        measured = _measured(claim)
+        measured = measure(claim)
         rows = tuple(_judged(claim, measured))
         if draw and measured.module is not None and not measured.wrong:
             try:
-                picture = _picture(measured)
+                picture = picture_of(measured)
             except Exception as error:
-                rows += (_broken(file, f"its picture: {_last_lines(error)}", claim),)
+                rows += (_broken(file, f"its picture: {last_lines(error)}", claim),)
     return Judgement(rows, time.perf_counter() - began, picture)
 
 
@@ -155,17 +144,7 @@ def _in_processes(files: Sequence[Path], jobs: int, draw: bool) -> Iterator[tupl
             yield waiting[future], future.result()
 
 
-@dataclass
-class _Measured:
-    """What was found before something went wrong, if it did; module: the script; absent: why nothing could be."""
-
-    found: list[Found]
-    wrong: str = ""
-    absent: str = ""
-    module: ModuleType | None = None
-
-
-def _judged(claim: Claim, measured: _Measured) -> Iterator[Judged]:
+def _judged(claim: Claim, measured: Measured) -> Iterator[Judged]:
     found = measured.found
     for spec in claim.rows:
         own = [one for one in found if one.key == spec.key]
@@ -179,7 +158,7 @@ def _judged(claim: Claim, measured: _Measured) -> Iterator[Judged]:
         yield _broken(claim.file, f"'{key}' was measured and no row asks for it", claim)
 
 
-def _nothing(claim: Claim, spec: RowSpec, measured: _Measured) -> tuple[Verdict, str]:
+def _nothing(claim: Claim, spec: RowSpec, measured: Measured) -> tuple[Verdict, str]:
     """Verdict on a row for which nothing was found."""
     if measured.wrong:
         return "fails", measured.wrong
@@ -203,7 +182,9 @@ def _verdict(spec: RowSpec, one: Found) -> tuple[Verdict, str]:
     scale = abs(reference) if spec.relative else 1.0
     if spec.relative and reference == 0.0:
         return "fails", "a relative tolerance on a reference of 0"
-    return ("holds" if abs(one.ours - reference) <= spec.tolerance * scale else "fails"), spec.reason
+    over = one.ours - reference
+    miss = {"both": abs(over), "above": -over, "below": over}[spec.side]
+    return ("holds" if miss <= spec.tolerance * scale else "fails"), spec.reason
 
 
 def _reference(spec: RowSpec, one: Found) -> float | None:
@@ -227,6 +208,7 @@ def _line(claim: Claim, spec: RowSpec, one: Found | None, verdict: Verdict, reas
         verdict=verdict,
         reason=reason,
         source=claim.source,
+        side=spec.side,
     )
 
 
@@ -247,98 +229,3 @@ def _broken(file: Path, told: str, claim: Claim | None = None) -> Judged:
         reason=told,
         source=claim.source if claim else "",
     )
-
-
-def _measured(claim: Claim) -> _Measured:
-    """Measure what a claim is about. Whatever a script raises is its own rows' fault: the others still run."""
-    out = _Measured([])
-    lacking = [name for name in claim.needs if importlib.util.find_spec(name) is None]
-    if lacking:
-        out.absent = f"not installed: {', '.join(lacking)}; pip install {' '.join(lacking)}"
-        return out
-    try:
-        tables = claim.tables()
-        with _silent():
-            if claim.script is not None:
-                out.module = _script(claim.file.parent / claim.script)
-                out.found.extend(out.module.measure(tables))
-            elif claim.case is not None:
-                out.found.extend(_of_case(claim))
-    except CaseError as error:
-        out.wrong = str(error)
-    except Exception as error:
-        out.wrong = _last_lines(error)
-    return out
-
-
-def _script(file: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(f"fyke_validation_{file.stem}", file)
-    if spec is None or spec.loader is None or not file.is_file():
-        raise FileNotFoundError(f"no script {file}")
-    module = importlib.util.module_from_spec(spec)
-    with _beside(file.parent):
-        spec.loader.exec_module(module)
-    return module
-
-
-def _picture(measured: _Measured) -> bytes | None:
-    """Draw what a script has to show."""
-    picture = getattr(measured.module, "picture", None)
-    if picture is None:
-        return None
-    from ..report.verdicts import as_png
-
-    return as_png(picture(measured.found))
-
-
-@contextmanager
-def _silent() -> Iterator[None]:
-    """Let nothing through that other programs print, from compiled code too: standard output is the command's own."""
-    sys.stdout.flush()
-    with open(os.devnull, "wb") as nowhere:
-        kept = os.dup(STANDARD_OUTPUT)
-        os.dup2(nowhere.fileno(), STANDARD_OUTPUT)
-        try:
-            yield
-        finally:
-            os.dup2(kept, STANDARD_OUTPUT)
-            os.close(kept)
-
-
-@contextmanager
-def _beside(folder: Path) -> Iterator[None]:
-    """Let a script import what lies beside it."""
-    sys.path.insert(0, str(folder.resolve()))
-    try:
-        yield
-    finally:
-        sys.path.remove(str(folder.resolve()))
-
-
-def _of_case(claim: Claim) -> Iterator[Found]:
-    """Values of the summary of a case, by the rows' keys."""
-    case = load_case(claim.file.parent / str(claim.case))
-    system = build_system(build_net(case), case)
-    result = solve_case(system, case)
-    if not result.outcome.ok:
-        raise RuntimeError(f"{result.outcome.name}: {result.outcome.message}")
-    figures = summary(result, flow_direction=flow_direction(system)) | part_figures(
-        system, result, depth=case.water.depth
-    )
-    for spec in claim.rows:
-        yield Found(spec.key, float(_by_key(figures, spec.key)))
-
-
-def _by_key(figures: dict[str, Any], key: str) -> Any:
-    """Return the value at a dotted key, list entries by number."""
-    value: Any = figures
-    for part in key.split("."):
-        value = value[int(part)] if isinstance(value, list) else value[part]
-    return value
-
-
-def _last_lines(error: BaseException) -> str:
-    lines = "".join(traceback.format_exception_only(error)).strip().splitlines()
-    place = traceback.extract_tb(error.__traceback__)
-    where = f" ({Path(place[-1].filename).name}, line {place[-1].lineno})" if place else ""
-    return " ".join(lines[-TOLD:]) + where
