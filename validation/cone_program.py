@@ -1,4 +1,6 @@
-"""Statics against a convex program: under dead loads the equilibrium is the one minimum of
+"""Statics against a convex program.
+
+Under dead loads the equilibrium is the one minimum of
 
     sum 1/2 k s^2 - sum load . x    subject to    |x_b - x_a| <= l0 + s  for every bar,
 

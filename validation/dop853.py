@@ -63,6 +63,7 @@ class Equations:
         return out, t
 
     def rate(self, _, y):
+        """Velocities and accelerations of the free knots."""
         x, v = self.first.copy(), np.zeros_like(self.first)
         x[self.free], v[self.free] = y.reshape(2, -1, 3)
         force, t = self.force(x, v)

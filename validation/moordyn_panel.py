@@ -1,4 +1,4 @@
-"""The mid-side panel in MoorDyn, a point for each knot and a line for each bar, swung to rest; nothing of fyke in it."""
+"""The mid-side panel in MoorDyn, a point for each knot and a line for each bar, swung to rest."""
 
 from __future__ import annotations
 

@@ -33,7 +33,7 @@ def hung(mesh, ratio, diameter, knot_diameter, meshes=2):
     )
 
 
-def covered(net, cell, pixels=400):
+def covered(net, cell, pixels=200):
     """Part of one cell in the middle of a panel that its bars and knots cover.
 
     Every pixel is looked at in a random place within it, for edges that run along the pixels.

@@ -12,7 +12,7 @@ from fyke.study import Found
 
 EXAMPLE = Path(__file__).resolve().parents[1] / "examples" / "panel.toml"
 SQUARE = {"mesh": "square", "size": (0.216, 0.216), "meshes": (8, 8)}
-# Released flat and slack: time to settle (s), and the damping of the twine (s) that a pair of high order needs to come to rest.
+# Released flat and slack: time to settle (s), and the damping of the twine (s) with which every stepper comes to rest.
 DURATION, DAMPING = 3.0, 2e-5
 
 

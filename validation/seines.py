@@ -1,9 +1,9 @@
 """Model purse seines of three fibres sinking: ratios of their mean speeds.
 
-The paper's abstract gives neither mesh nor twine. A strip of netting stands for the seine: a line of bars with its mass,
-weight and displaced water, and the drag of its whole twine. What is not known is the netting's volume; it was worked out
-by hand from the ratio of the first two fibres, as if the speed went with the root of the weight, and the third is a
-prediction.
+The paper's abstract gives neither mesh nor twine. A strip of netting stands for the seine: a line of bars with its
+mass, weight and displaced water, and the drag of its whole twine. What is not known is the netting's volume; it was
+worked out by hand from the ratio of the first two fibres, as if the speed went with the root of the weight, and the
+third is a prediction.
 """
 
 from __future__ import annotations

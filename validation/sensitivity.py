@@ -1,4 +1,4 @@
-"""Which inputs move sag, drag and largest tension of the 8 x 8 panel, and by how much; and what scaling says exactly."""
+"""Which inputs move sag, drag and tension of the 8 x 8 panel, and by how much; and what scaling says exactly."""
 
 from __future__ import annotations
 

@@ -128,6 +128,7 @@ def _by_key(figures: dict[str, Any], key: str) -> Any:
 
 
 def last_lines(error: BaseException) -> str:
+    """Say in a line what was raised and where."""
     lines = "".join(traceback.format_exception_only(error)).strip().splitlines()
     place = traceback.extract_tb(error.__traceback__)
     where = f" ({Path(place[-1].filename).name}, line {place[-1].lineno})" if place else ""
