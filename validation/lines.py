@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.figure import Figure
 
 import fyke
+from fyke.report.style import DOUBLE_COLUMN, styled
 
 # Neither water nor gravity, and forces of the water switched off: what is left is dead load and elasticity.
 NO_WATER = fyke.Water(density=0.0, gravity=0.0)
@@ -32,14 +34,13 @@ def orders(errors):
     return np.log2(errors[:-1] / errors[1:])
 
 
+@styled
 def draw_orders(curves, order, *, by, what):
     """Errors by steps or bars on double logarithmic axes, a line each, over the slope of an order.
 
     curves: {name: (counts, errors)}.
     """
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(5.0, 3.6), layout="constrained")
+    figure = Figure(figsize=(DOUBLE_COLUMN, 3.2), layout="constrained")
     axes = figure.add_subplot()
     for name, (counts, errors) in curves.items():
         axes.loglog(counts, errors, "o-", markersize=3, linewidth=1, label=name)
@@ -49,5 +50,5 @@ def draw_orders(curves, order, *, by, what):
     )
     axes.set_xlabel(by)
     axes.set_ylabel(what)
-    axes.legend(fontsize=7)
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure

@@ -141,5 +141,12 @@ def picture(found):
     """Every model's drag and lift over the points."""
     from fyke.report.laws import panel_by_angle
 
-    shown = (CONSTANT, SHELTERED, "bars, ns-cheng", SCREENS, "screens, aarsnes", "screens, loland")
-    return panel_by_angle({name: np.vstack([ANGLE, flat(name)]) for name in shown})
+    shown = {
+        "bars, 1.2 and 0.1": CONSTANT,
+        "the same, sheltered": SHELTERED,
+        "bars, ns-cheng": "bars, ns-cheng",
+        "screens, kristiansen-f.": SCREENS,
+        "screens, aarsnes": "screens, aarsnes",
+        "screens, loland": "screens, loland",
+    }
+    return panel_by_angle({name: np.vstack([ANGLE, flat(model)]) for name, model in shown.items()})

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
+from matplotlib.figure import Figure
 
+from fyke.report.style import DOUBLE_COLUMN, styled
 from fyke.study import Found
 from fyke.water.laws import LAWS, measured
 
@@ -56,11 +58,10 @@ def measure(tables):
             yield Found("mean", mean, case=f"{body}, {name}, {count} points")
 
 
+@styled
 def picture(found):
     """C_D of cylinders and spheres by Reynolds number, laws over points."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7.0, 3.2), layout="constrained")
+    figure = Figure(figsize=(DOUBLE_COLUMN, 3.2), layout="constrained")
     re = np.geomspace(1.0, 1e6, 400)
     for axes, kind, points, title in zip(
         figure.subplots(1, 2), ("bars", "knots"), (CYLINDERS, SPHERES), ("cylinder", "sphere"), strict=True
@@ -71,6 +72,6 @@ def picture(found):
             here = re[(re >= bounds[0]) & (re <= bounds[1])]
             curve = law.coefficients(here) if kind == "knots" else law.drag_lift(here, 0.5 * np.pi)[0]
             axes.loglog(here, np.broadcast_to(curve, here.shape), linewidth=0.9, label=name)
-        axes.set(title=title, xlabel="Re (-)", ylabel="C_D (-)", ylim=(0.05, 30.0))
-        axes.legend(fontsize=5)
+        axes.set(title=title, xlabel="Re (-)", ylabel="C_D (-)", ylim=(0.05, 1e3))
+        axes.legend(ncols=2, loc="upper right")
     return figure

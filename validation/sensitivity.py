@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from matplotlib.figure import Figure
 from panels import NYLON, SIDE, framed, settled
 
 import fyke
 from fyke.forces.evaluate import evaluate
+from fyke.report.style import BLUE, DOUBLE_COLUMN, styled
 from fyke.study import Found
 from fyke.water.laws import LAWS
 
@@ -120,17 +122,15 @@ def measure(tables):
     )
 
 
+@styled
 def picture(found):
     """Elasticities as a tornado, the largest first."""
-    from matplotlib.figure import Figure
-
-    figure = Figure(figsize=(7.0, 3.0), layout="constrained")
+    figure = Figure(figsize=(DOUBLE_COLUMN, 2.4), layout="constrained")
     for axes, output in zip(figure.subplots(1, 3), OUTPUTS, strict=True):
         own = sorted(
             (abs(one.ours), one.case, one.ours) for one in found if one.key == f"elasticity, {output}"
         )
-        axes.barh([case for _, case, _ in own], [value for *_, value in own], color="tab:blue", height=0.7)
+        axes.barh([case for _, case, _ in own], [value for *_, value in own], color=BLUE, height=0.7)
         axes.axvline(0.0, color="black", linewidth=0.8)
         axes.set(title=output, xlabel="% for 1 % of the input")
-        axes.tick_params(labelsize=6)
     return figure

@@ -62,7 +62,7 @@ class Judgement:
 
 @dataclass(frozen=True)
 class Report:
-    """All rows, the seconds that each claim took, and the pictures (PNG) by the titles of their claims."""
+    """All rows, the seconds that each claim took, and the pictures (PNG) of claims."""
 
     rows: tuple[Judged, ...]
     seconds: dict[str, float]
@@ -101,7 +101,7 @@ def validate(
     return Report(
         rows=tuple(row for judgement in ordered for row in judgement.rows),
         seconds={file.stem: found[file].seconds for file in wanted},
-        pictures={one.rows[0].title: one.picture for one in ordered if one.picture},
+        pictures={file.stem: picture for file in wanted if (picture := found[file].picture)},
     )
 
 
