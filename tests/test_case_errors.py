@@ -121,12 +121,12 @@ SPOILT = {
     "no mesh": (
         "[8, 8]",
         "[0, 8]",
-        ("line 15, [[gear]] 1 meshes, value 1", "0", "1 to 2000", "at least one"),
+        ("line 15, [[gear]] 1 meshes, value 1", "0", "1 to 20000", "at least one"),
     ),
-    "part of a mesh": ("[8, 8]", "[8, 1.5]", ("meshes, value 2", "1.5", "1 to 2000", "whole number")),
-    "whole meshes with a point": ("[8, 8]", "[8, 8.0]", ("meshes, value 2", "8.0", "1 to 2000", "write 8,")),
-    "boolean mesh": ("[8, 8]", "[true, 8]", ("meshes, value 1", "true", "1 to 2000", "whole number")),
-    "too many meshes": ("[8, 8]", "[8, 2001]", ("meshes, value 2", "2001", "1 to 2000", "several panels")),
+    "part of a mesh": ("[8, 8]", "[8, 1.5]", ("meshes, value 2", "1.5", "1 to 20000", "whole number")),
+    "whole meshes with a point": ("[8, 8]", "[8, 8.0]", ("meshes, value 2", "8.0", "1 to 20000", "write 8,")),
+    "boolean mesh": ("[8, 8]", "[true, 8]", ("meshes, value 1", "true", "1 to 20000", "whole number")),
+    "too many meshes": ("[8, 8]", "[8, 20001]", ("meshes, value 2", "20001", "1 to 20000", "several panels")),
     "three sizes": (
         "[0.3055, 0.3055]",
         "[0.3, 0.3, 0.3]",

@@ -176,7 +176,19 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     block = [lines[i][2:] for i in parts]
     block[:10] = [line for line in block[:10] if not line.startswith(left_out)]
     case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
-    assert [part.kind for part in case.gear] == ["panel", "cylinder", "rope", "sinkers", "floats"]
+    kinds = ["panel", "cylinder", "rope", "collar", "ring", "ring", "sinkers", "floats"]
+    assert [part.kind for part in case.gear] == kinds
+
+
+def test_the_motion_of_the_template_can_be_used(tmp_path):
+    lines = template().splitlines()
+    (tmp_path / "motion.csv").write_text("time,dx,dy,dz\n0,0,0,0\n2,0,0,0.1\n")
+    first = lines.index("# [[motion]]")
+    block = [line[2:].replace('"cage.top"', '".top"') for line in lines[first : lines.index("", first)]]
+    text = "\n".join([*lines[:first], *block, *lines[lines.index("", first) :]])
+    dynamic = text.replace('kind = "static"', 'kind = "dynamic"\nduration = 2.0')
+    case = parse_case(dynamic, path=tmp_path / "case.toml")
+    assert case.motion[0].model_fields_set == set(type(case.motion[0]).model_fields)
 
 
 def beside_netting_and_twine(key, lines):
@@ -200,11 +212,13 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
     lines = template().splitlines()
     waves = lines.index("# [waves]")
     own = next(i for i, line in enumerate(lines) if line.startswith("# [material.own]"))
+    loads = next(i for i, line in enumerate(lines) if line.startswith("# [[load_case]]"))
     irregular, after = (
         lines.index('# For kind = "jonswap" or "pierson-moskowitz":', waves),
         lines.index("", waves),
     )
-    parts = gear_of_the_template(lines)
+    moved = lines.index("# [[motion]]")
+    parts = {*gear_of_the_template(lines), *range(moved, lines.index("", moved))}
     for number, line in enumerate(lines):
         words = ("The", "A ", "For", "By")
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(words) or number in parts:
@@ -219,12 +233,16 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         if own <= number < lines.index("", own):
             # The table begins with its name and the one key that it must have.
             shown[own : own + 2] = [old[2:] for old in lines[own : own + 2]]
+        if loads <= number < lines.index("", loads):
+            shown[loads] = "[[load_case]]"
         if waves < number < after:
             size = ('kind = "jonswap"', "significant_height = 1.0", 'peak_period = "6 s"')
             size = size if number > irregular else ('kind = "airy"', "height = 1.0", 'period = "6 s"')
             needed = [one for one in size if not one.startswith(f"{key} =")]
             shown = [*lines[:waves], "[waves]", *needed, line[2:], *lines[after:]]
-        if key in ("bars", "knots"):
+        if lines[number - 1].startswith("# [grouping]"):
+            shown[number - 1] = "[grouping]"
+        elif key in ("bars", "knots"):
             (tmp_path / "drag.csv").write_text("reynolds,normal,tangential\n10,2,0.1\n1000,1,0.1\n")
             before = max(i for i, old in enumerate(lines[:number]) if old.startswith(f"{key} ="))
             shown[before] = ""

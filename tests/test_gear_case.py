@@ -331,11 +331,11 @@ SPOILT = {
     ),
     "a kind that is not there": (
         WHOLE.replace('kind = "rope"', 'kind = "ropes"'),
-        ("[[gear]] 2 kind", '"ropes"', '"panel" or "cylinder"', 'did you mean "rope"?'),
+        ("[[gear]] 2 kind", '"ropes"', '"panel" or "trapezoid"', 'did you mean "rope"?'),
     ),
-    "a collar": (
-        WHOLE.replace('kind = "rope"', 'kind = "collar"'),
-        ("[[gear]] 2 kind", '"collar"', '"sinkers"', "choose"),
+    "a kind that is not there": (
+        WHOLE.replace('kind = "rope"', 'kind = "buoy"'),
+        ("[[gear]] 2 kind", '"buoy"', '"sinkers"', "choose"),
     ),
     "a key of another kind": (
         WHOLE.replace('twine = "line"', 'twine = "line"\nbuoyancy = "3 N"'),
@@ -480,7 +480,21 @@ def test_check_tells_every_part(tmp_path, capsys):
 def test_the_schema_knows_every_kind():
     tables = json_schema()
     kinds = set(tables["properties"]["gear"]["items"]["discriminator"]["mapping"])
-    assert kinds == {"panel", "cylinder", "cone", "frustum", "rope", "sinkers", "floats"}
+    assert kinds == {
+        "panel",
+        "trapezoid",
+        "triangle",
+        "box",
+        "seam",
+        "cylinder",
+        "cone",
+        "frustum",
+        "rope",
+        "ring",
+        "collar",
+        "sinkers",
+        "floats",
+    }
 
 
 VALUES = [

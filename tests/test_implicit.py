@@ -222,7 +222,9 @@ def test_large_nets_are_solved_by_a_symmetric_matrix_to_the_exact_equations(fram
 def test_smoothed_complementarity_by_hand():
     """T = 3, w = 1, g = 1, mu = 0: w - T + g = -1, T + w - |T - w| = 2 w, p = 1."""
     p, r, c = (np.empty(1) for _ in range(3))
-    phi, worst = smooth_bars(np.array([3.0]), np.array([1.0]), np.array([1.0]), 0.0, p, r, c)
+    phi, worst = smooth_bars(
+        np.array([3.0]), np.array([1.0]), np.array([1.0]), 0.0, np.zeros(1, dtype=bool), p, r, c
+    )
     assert (phi, worst, p[0], r[0], c[0]) == (2.0, 1.0, 1.0, -1.0, -2.0)
 
 

@@ -6,6 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.optimize import brentq
 
 import fyke
 from fyke.forces.wetness import wet_bar, wet_knot
@@ -46,6 +48,12 @@ def curtain(density: float = 1140.0, centre: float = -1.0, **options) -> fyke.Ne
     )
 
 
+def segment(s: float) -> float:
+    """Part of a circle under water, its middle s radii deep: the angle of its water line, theta - sin theta."""
+    angle = 2.0 * np.arccos(-np.clip(s, -1.0, 1.0))
+    return (angle - np.sin(angle)) / (2.0 * np.pi)
+
+
 # By hand
 
 
@@ -61,11 +69,12 @@ def test_a_hanging_bar_weighs_less_by_the_water_its_wet_part_displaces(above, we
 
 @pytest.mark.parametrize("density", [250.0, 500.0, 900.0])
 def test_a_floating_rope_dives_by_its_density(density):
-    """A level bar is a ramp: the part density / 1000 of its height is under water; current holds it taut."""
+    """The segment of a level bar's round that is under water is density / 1000 of it; current holds it taut."""
     result = fyke.solve_static(fyke.make_system(floating(density), current=(0.0, 0.3, 0.0), surface=True))
     assert result.outcome.ok and result.outcome.iterations <= 10
     middle = result.position[-1][15:26, 2]
-    assert middle == pytest.approx(0.01 * (1.0 - 2.0 * density / RHO), abs=1e-7)
+    deep = brentq(lambda s: segment(s) - density / RHO, -1.0, 1.0, xtol=1e-14)
+    assert middle == pytest.approx(-0.01 * deep, abs=1e-7)
 
 
 def test_a_floating_ball_dives_by_the_cap_it_needs():
@@ -83,6 +92,40 @@ def test_a_floating_ball_dives_by_the_cap_it_needs():
     under = 0.1 - height
     assert result.outcome.ok
     assert under**2 * (0.3 - under) / (4.0 * 0.1**3) == pytest.approx(0.7, abs=1e-6)
+
+
+def test_the_wet_part_of_a_bar_is_the_mean_of_segments_along_it():
+    rng = np.random.default_rng(2)
+    for a, b in rng.uniform(-0.03, 0.03, (20, 2)):
+        mean = quad(lambda t, a=a, b=b: segment((a + t * (b - a)) / 0.01), 0.0, 1.0, epsabs=1e-12, limit=400)[
+            0
+        ]
+        assert wet_bar(a, b, 0.01)[0] == pytest.approx(mean, abs=1e-8)
+    for depth in (-0.0099, -0.004, 0.0, 0.0077):
+        near = [wet_bar(depth - gap, depth + gap, 0.01)[0] for gap in (0.0, 4e-8, 6e-8, 1e-6)]
+        assert near == pytest.approx([segment(depth / 0.01)] * 4, abs=1e-7)
+    assert wet_bar(0.02, 0.03, 0.01) == (1.0, 0.0, 0.0)
+    assert wet_bar(-0.02, -0.03, 0.01) == (0.0, 0.0, 0.0)
+
+
+def test_slopes_of_the_wet_part_by_complex_step():
+    """Of the closed form of the mean, its depths complex numbers: half a circle lifts its diameter a metre."""
+
+    def immersed(s):
+        square = 1.0 - s * s
+        return (1 + s) / 2 + (
+            np.sqrt(square) - np.sqrt(square) ** 3 / 3 + s * np.arcsin(s) - np.pi / 2
+        ) / np.pi
+
+    step, radius = 1e-30, 0.2
+    for a, b in [(-0.1, 0.05), (0.15, 0.03), (-0.19, 0.19)]:
+        for end in (0, 1):
+            s, t = (complex(a, step * (end == 0)) / radius, complex(b, step * (end == 1)) / radius)
+            want = ((immersed(t) - immersed(s)) / (t - s)).imag / step
+            assert wet_bar(a, b, radius)[1 + end] == pytest.approx(want, rel=1e-10)
+    part, by_a, by_b = wet_bar(0.0, 0.0, radius)
+    assert part == 0.5
+    assert np.pi * radius**2 * (by_a + by_b) == pytest.approx(2.0 * radius, rel=1e-14)
 
 
 def test_wet_parts_have_the_slopes_of_differences():
@@ -208,7 +251,7 @@ def test_at_rest_an_implicit_run_ends_where_statics_does(density):
     system = fyke.make_system(floating(density), current=(0.0, 0.3, 0.0), surface=True)
     still = fyke.solve_static(system, tolerance=1e-9)
     run = fyke.simulate(
-        system, duration=300.0, every=5.0, stepper=fyke.Implicit(), settle=fyke.Settle(force=1e-5)
+        system, duration=300.0, every=5.0, stepper=fyke.Implicit(), settle=fyke.Settle(force=1e-6)
     )
     assert run.outcome.ok and run.outcome.iterations < 600
     assert np.abs(run.position[-1] - still.position[-1]).max() < 1e-4

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 import fyke
-from fyke.cli.run import Wishes, run_case
+from fyke.cli.load_cases import Wishes
+from fyke.cli.run import run_case
 from fyke.forces.around import HERE_ROWS, WATER, knots_in_order
 from fyke.forces.around import renumbered as renumbered_elements
 from fyke.forces.team import run_team, threads_allowed, threads_for

@@ -9,10 +9,13 @@ from .version import __version__
 
 if TYPE_CHECKING:
     from .case import Case, CaseError, load_case, parse_case
+    from .netting.chain import chain
     from .netting.elastic import LinearLaw, PowerLaw, QuadraticLaw, TableLaw
     from .netting.line import line
+    from .netting.lines import LinePiece, with_line
     from .netting.net import Net
     from .netting.panel import panel
+    from .netting.tubes import Tube
     from .netting.twine import Twine
     from .results import load, save
     from .solve.auto import Auto
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
     from .solve.static import solve_static
     from .solve.symplectic import Symplectic
     from .solve.verner import Verner
+    from .system.bed import Bed
     from .system.build import build_net, build_system, make_system
     from .system.laws import Coefficients, Water
     from .system.system import State, System
@@ -33,12 +37,14 @@ if TYPE_CHECKING:
 # Names are fetched when first used, so that `import fyke` and `fyke --help` are quick.
 _HOME = {
     "Auto": "solve.auto",
+    "Bed": "system.bed",
     "Case": "case",
     "CaseError": "case",
     "Coefficients": "system.laws",
     "ConstantBar": "water.laws.bars",
     "ConstantKnot": "water.laws.knots",
     "Implicit": "solve.implicit",
+    "LinePiece": "netting.lines",
     "LinearLaw": "netting.elastic",
     "Modes": "solve.modes",
     "Net": "netting.net",
@@ -52,11 +58,13 @@ _HOME = {
     "Symplectic": "solve.symplectic",
     "System": "system.system",
     "TableLaw": "netting.elastic",
+    "Tube": "netting.tubes",
     "Twine": "netting.twine",
     "Verner": "solve.verner",
     "Water": "system.laws",
     "build_net": "system.build",
     "build_system": "system.build",
+    "chain": "netting.chain",
     "line": "netting.line",
     "load": "results",
     "load_case": "case",
@@ -67,16 +75,19 @@ _HOME = {
     "save": "results",
     "simulate": "solve.dynamic",
     "solve_static": "solve.static",
+    "with_line": "netting.lines",
 }
 
 __all__ = [
     "Auto",
+    "Bed",
     "Case",
     "CaseError",
     "Coefficients",
     "ConstantBar",
     "ConstantKnot",
     "Implicit",
+    "LinePiece",
     "LinearLaw",
     "Modes",
     "Net",
@@ -90,12 +101,14 @@ __all__ = [
     "Symplectic",
     "System",
     "TableLaw",
+    "Tube",
     "Twine",
     "Verner",
     "Water",
     "__version__",
     "build_net",
     "build_system",
+    "chain",
     "line",
     "load",
     "load_case",
@@ -106,6 +119,7 @@ __all__ = [
     "save",
     "simulate",
     "solve_static",
+    "with_line",
 ]
 
 

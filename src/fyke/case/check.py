@@ -15,17 +15,23 @@ from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
-from .gear_check import gear_findings, reference
+from .gear_check import gear_findings, has_bottom, reference
+from .grouping import grouping_findings
 from .keys import nearest
+from .load_case import load_case_file_problems, load_case_findings
+from .motion_check import motion_file_problems, motion_findings
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .schema import Compare, DynamicSolve, Gear, Output, Water
+from .seams import SeamSpec
+from .tube_check import tube_findings
+from .tubes import TubeSpec, TubularSpec
 from .twine import MaterialSpec, TableSpec, TwineSpec
 from .water_check import current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"rope", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"seam", "rope", "ring", "collar", "sinkers", "floats"}  # kinds of gear that are not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -40,6 +46,7 @@ class Parts:
     raw: dict[str, Any]
     materials: dict[str, Material]
     twines: dict[str, TwineSpec]
+    tubes: dict[str, TubeSpec]
     nettings: dict[str, NettingSpec]
     gear: dict[int, Part]
     folder: FilePath
@@ -57,6 +64,7 @@ class Parts:
             raw,
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
+            _named(TubeSpec, raw, "tube"),
             _named(NettingSpec, raw, "netting"),
             {i: part for i, part in parts.items() if part is not None},
             folder,
@@ -74,9 +82,19 @@ class Parts:
         return {i: part for i, part in self.gear.items() if isinstance(part, Piece)}
 
     @property
+    def seams(self) -> dict[int, SeamSpec]:
+        """Gear that is seams, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, SeamSpec)}
+
+    @property
     def ropes(self) -> dict[int, RopeSpec]:
         """Gear that is ropes, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
+
+    @property
+    def tubulars(self) -> dict[int, TubularSpec]:
+        """Gear that is made of tubes, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, TubularSpec)}
 
     @property
     def bodies(self) -> dict[int, BodiesSpec]:
@@ -89,9 +107,13 @@ class Parts:
         names = []
         for index, keys in self.gear_tables():
             if not RIGGING & {keys.get("kind") if isinstance(keys.get("kind"), str) else ""}:
-                name = self.name_of(index)
-                names += [name, f"{name} bottom".strip()] if "bottom" in keys else [name]
+                names += self.names_of(index, keys)
         return names
+
+    def names_of(self, index: int, keys: dict[str, Any]) -> list[str]:
+        """Name of a part of these keys, and that of its bottom."""
+        name = self.name_of(index)
+        return [name, f"{name} bottom".strip()] if has_bottom(keys) else [name]
 
     def name_of(self, index: int, sheet: Sheet | None = None) -> str:
         """Name that a part of the gear will have, or the bottom of one, a sheet that is sewn to another."""
@@ -140,7 +162,9 @@ def findings(parts: Parts) -> Iterator[Finding]:
         yield from _table_law(("twine", name, "law"), twine)
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
+    yield from tube_findings(parts)
     yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
+    yield from grouping_findings(parts)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)
@@ -149,6 +173,8 @@ def findings(parts: Parts) -> Iterator[Finding]:
     yield from _waves(parts)
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
+    yield from _load_cases(parts)
+    yield from motion_findings(parts, _valid(DynamicSolve, parts.raw.get("solve")))
 
 
 def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
@@ -160,6 +186,8 @@ def file_problems(parts: Parts) -> Iterator[tuple[Path, Problem]]:
     ):
         for number, problem in enumerate(problems):
             yield (*key, number), problem
+    yield from load_case_file_problems(parts)
+    yield from motion_file_problems(parts)
 
 
 def _valid(model: type[Model], part: Any) -> Model | None:
@@ -352,3 +380,9 @@ def _waves(parts: Parts) -> Iterator[Finding]:
     water = _valid(Water, parts.raw.get("water", {}))
     if water is not None and "waves" in parts.raw:
         yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
+
+
+def _load_cases(parts: Parts) -> Iterator[Finding]:
+    water = _valid(Water, parts.raw.get("water", {}))
+    depth, gravity = (None, None) if water is None else (water.depth, water.gravity)
+    yield from load_case_findings(parts, depth, gravity)

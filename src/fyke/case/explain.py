@@ -15,6 +15,9 @@ from .written import assignment, written
 
 _FEW = 6  # words that are worth telling twice
 
+# Tables of which there may be several, and what each is.
+LISTED = {"gear": "panel", "load_case": "load case", "motion": "motion"}
+
 Words = tuple[str, str, str]  # found, allowed, cure
 
 
@@ -85,7 +88,7 @@ def _alternatives(choices: list[str]) -> str:
 
 def _table(detail: ErrorDetails, spot: Spot) -> Words:
     dotted = ".".join(str(step) for step in spot.path)
-    name = "[[gear]]" if spot.path[0] == "gear" else f"[{dotted}]"
+    name = f"[[{spot.path[0]}]]" if spot.path[0] in LISTED else f"[{dotted}]"
     return (
         written(detail["input"]),
         f"a table: {spot.meaning}",
@@ -95,8 +98,9 @@ def _table(detail: ErrorDetails, spot: Spot) -> Words:
 
 def _list(detail: ErrorDetails, spot: Spot) -> Words:
     value = detail["input"]
-    if spot.path[0] == "gear" and len(spot.path) == 1:
-        return written(value), "one table [[gear]] for every panel", "write [[gear]], with double brackets"
+    if spot.path[0] in LISTED and len(spot.path) == 1:
+        name, what = f"[[{spot.path[0]}]]", LISTED[str(spot.path[0])]
+        return written(value), f"one table {name} for every {what}", f"write {name}, with double brackets"
     samples = spot.field.examples if spot.field else None
     name = next((str(step) for step in reversed(spot.path) if isinstance(step, str)), "")
     cure = f"write for example {assignment(name, samples[0])}" if samples else "give all values in one list"

@@ -32,7 +32,7 @@ _HANGING = Quantity(RATIO, 0.0, 2.0, open_below=True)
 _BELOW_ONE = (
     "a number E1 above 0 and below 1 for diamond mesh, or [E1, E2], each above 0 and at most 2; or in %"
 )
-_MOST_MESHES = 2000
+_MOST_MESHES = 20_000
 _NAME = re.compile(r"[\w .-]{0,60}")
 
 
@@ -81,6 +81,12 @@ def _read_normal(vector: tuple[float, float, float]) -> tuple[float, float, floa
     return vector
 
 
+def _read_switch(value: Any) -> bool:
+    if not isinstance(value, bool):
+        raise wrong("true or false", "write true or false, without quotes")
+    return value
+
+
 def whole(least: int, most: int) -> tuple[PlainValidator, WithJsonSchema]:
     """Return the marks of a field that is a whole number in a range."""
     allowed = f"a whole number from {least} to {most}"
@@ -106,6 +112,7 @@ MeshCount = Annotated[
     PlainValidator(_read_count),
     WithJsonSchema({"type": "integer", "minimum": 1, "maximum": _MOST_MESHES}),
 ]
+Switch = Annotated[bool, PlainValidator(_read_switch), WithJsonSchema({"type": "boolean"})]
 Velocity = tuple[Speed, Speed, Speed]
 Point = tuple[Place, Place, Place]
 Direction = Annotated[tuple[Component, Component, Component], AfterValidator(_read_normal)]

@@ -9,11 +9,18 @@ from typing import TYPE_CHECKING, Any, cast
 
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
-from .gear import LARGEST_STRAIN, NettingSpec, PanelSpec, Piece, Sheet
+from ..netting.multiples import LEAST_AROUND
+from .box import BoxSpec
+from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec, SinkersSpec
-from .shapes import LEAST_AROUND, ConeSpec, CylinderSpec, RoundSpec
+from .seams_check import joined_names, seam_findings
+from .shapes import ConeSpec, CylinderSpec, RoundSpec
+from .tapered import TaperedSpec
+from .tapered_check import cutting
+from .tube_check import tubular_findings
+from .tubes import TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -22,6 +29,8 @@ if TYPE_CHECKING:
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
 _LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
+_ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
+_FLAT = ("panel", "trapezoid", "triangle")
 _KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
 
 
@@ -40,20 +49,31 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     """Everything that is wrong between the keys and parts of the gear; water: None where it is wrong itself."""
     yield from _names(parts)
     for index, keys in parts.gear_tables():
-        for table in ("netting", "twine"):
+        for table in ("netting", "twine", "tube"):
             there = [name for name, _ in parts.items(table)]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
-        if keys.get("kind") in ("panel", None):
+        if keys.get("kind") in (*_FLAT, "box", None):
             yield from _one_size(("gear", index), keys)
     for index, piece in parts.pieces.items():
         path = ("gear", index)
+        if isinstance(piece, TaperedSpec) and piece.netting in parts.nettings:
+            wrong_cuts = list(cutting(path, piece, parts.nettings[piece.netting]))
+            yield from wrong_cuts
+            if wrong_cuts:
+                continue
+        if isinstance(piece, BoxSpec):
+            yield from _hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
         if isinstance(piece, RoundSpec):
             yield from _round(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
-    sheets = _sheets(parts)
+    sheets = sheets_by_name(parts)
+    yield from seam_findings(parts, sheets)
     for index, rope in parts.ropes.items():
         yield from _rope(("gear", index), rope, parts, sheets)
+    for index, part in parts.tubulars.items():
+        yield from tubular_findings(("gear", index), part, parts.name_of(index))
+        yield from _way(("gear", index), part, parts, sheets)
     for index, bodies in parts.bodies.items():
         yield from _bodies(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
@@ -67,7 +87,7 @@ def _names(parts: Parts) -> Iterator[Finding]:
         if not isinstance(name, str):
             continue
         taken = {name: f"[[gear]] {index + 1}"}
-        if "bottom" in keys:
+        if has_bottom(keys):
             taken[f"{name} bottom"] = f"the bottom of [[gear]] {index + 1}"
         for one, owner in taken.items():
             if one in seen:
@@ -81,22 +101,40 @@ def _names(parts: Parts) -> Iterator[Finding]:
             seen.setdefault(one, owner)
 
 
+def has_bottom(keys: dict[str, Any]) -> bool:
+    """Whether a part of these keys has netting below it, valid or not."""
+    return keys.get("bottom", keys.get("kind") == "box") is not False
+
+
 def _held(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:
-    if parts.is_static and keys.get("fixed") == "none":
-        panel = keys.get("kind") == "panel"
+    anchored = any(other.get("kind") in _ANCHORED for _, other in parts.gear_tables())
+    if parts.is_static and keys.get("fixed") == "none" and not anchored and not _hangs(path, parts):
+        panel = keys.get("kind") in _FLAT
         allowed = ('"edges", "top" or "corners"' if panel else '"top" or "edges"') + " for a static case"
         hold = "edges" if panel else "top"
         cure = f'nothing would hold it: write fixed = "{hold}", or solve with kind = "dynamic"'
         yield (*path, "fixed"), '"none"', allowed, cure
 
 
+def _hangs(path: Path, parts: Parts) -> bool:
+    """Whether seams join a part, by way of others or not, to one that is held."""
+    held = {parts.name_of(i) for i, keys in parts.gear_tables() if keys.get("fixed") != "none"}
+    owner = {name: parts.name_of(i) for i, keys in parts.gear_tables() for name in parts.names_of(i, keys)}
+    pairs = [{owner.get(one, one) for one in joined_names(keys)} for _, keys in parts.gear_tables()]
+    if any(one not in owner for pair in pairs for one in pair):
+        return True  # whatever a seam means that names no part, and is told
+    known = {parts.name_of(cast(int, path[1]))}
+    while any(pair & known and pair - known for pair in pairs):
+        known = known.union(*(pair for pair in pairs if pair & known))
+    return bool(known & held & set(parts.netting_names))
+
+
 def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
     asked = {"size", "hanging_ratio"} & keys.keys()
     if len(asked) != 1:
         found = "both size and hanging_ratio" if asked else "neither size nor hanging_ratio"
-        cure = (
-            "leave out one of the two" if asked else "add size = [width, height] in m, or hanging_ratio = 0.6"
-        )
+        sides = "[along x, along y, deep]" if keys.get("kind") == "box" else "[width, height]"
+        cure = "leave out one of the two" if asked else f"add size = {sides} in m, or hanging_ratio = 0.6"
         yield (*path, "size"), found, "one of size and hanging_ratio", cure
 
 
@@ -109,10 +147,7 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if isinstance(piece, CylinderSpec | ConeSpec):
         yield from _one_round_size(path, piece)
         yield from _closing_ratio(path, piece, netting)
-    if netting is not None and isinstance(netting.mesh, Hexagon) and netting.mesh.turned:
-        found = f"hexagons with their long bars round {piece.called}"
-        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
-        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    yield from _hexagons_round(path, piece, netting)
     if netting is None or netting.mesh == "diamond":
         return
     allowed = "diamond netting, which can be gathered in one knot"
@@ -123,6 +158,22 @@ def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterato
     if piece.floor is not None:
         cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
         yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
+
+
+def _hexagons_round(
+    path: Path, piece: Piece, netting: NettingSpec | None, *, bottom: bool = False
+) -> Iterator[Finding]:
+    """What hexagons must have to close round, and that no bottom of theirs matches the walls of a box."""
+    if netting is None or not isinstance(netting.mesh, Hexagon):
+        return
+    if netting.mesh.turned:
+        found = f"hexagons with their long bars round {piece.called}"
+        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
+        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
+    if bottom:
+        allowed = "diamond or square netting, whose bottom matches its walls knot by knot"
+        cure = f'write bottom = false, or mesh = "diamond" in [netting.{piece.netting}]'
+        yield (*path, "bottom"), f"a bottom of hexagonal netting in {piece.called}", allowed, cure
 
 
 def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
@@ -173,7 +224,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
     if isinstance(ratio, tuple) and max(ratio) > 1.0 and isinstance(piece, RoundSpec):
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        if isinstance(piece, PanelSpec):
+        if isinstance(piece, FlatSpec | BoxSpec):
             yield from _pair(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
@@ -183,9 +234,10 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
 
 def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec) -> Finding:
     strain = f"which strains the bars by {sheet.strain(netting) * 100:.3g} % before anything acts"
-    if isinstance(piece, PanelSpec):
+    if isinstance(piece, FlatSpec | BoxSpec):
         key = "size" if piece.given_size else "hanging_ratio"
-        found = f"{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
+        of = "" if isinstance(piece, FlatSpec) else "a bottom of " if sheet.sewn else "walls of "
+        found = f"{of}{sheet.size[0]:g} m x {sheet.size[1]:g} m, {strain}"
         allowed = f"a frame that the net can span: at most {LARGEST_STRAIN * 100:g} % strain"
         return (*path, key), found, allowed, "check the units of size and bar_length and the number of meshes"
     low, high = sheet.rims or (0.0, 0.0)
@@ -197,17 +249,19 @@ def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec)
     return (*path, key), found, allowed, cure
 
 
-def _sheets(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
+def sheets_by_name(parts: Parts) -> dict[str, tuple[Sheet, NettingSpec]]:
     """The sheets of netting of all pieces that are good by themselves, by name."""
     out = {}
     for index, piece in parts.pieces.items():
         netting = parts.nettings.get(piece.netting)
+        if netting and isinstance(piece, TaperedSpec) and any(cutting((), piece, netting)):
+            continue
         for sheet in piece.sheets(netting) if netting else ():
             out[parts.name_of(index, sheet)] = (sheet, netting)
     return cast(dict[str, tuple[Sheet, NettingSpec]], out)
 
 
-def _along(
+def edge_named(
     path: Path, what: str, along: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding | tuple[int, float]]:
     """Either what is wrong with an edge that is named, or how many knots it has and its length (m)."""
@@ -228,7 +282,7 @@ def _along(
     sheet, netting = sheets[name]
     if side not in sheet.edges:
         allowed = f"an edge of '{name}': {' or '.join(sheet.edges)}"
-        if sheet.rims:
+        if sheet.closed:
             allowed += "; it closes round and has no other"
         near = nearest(side, sheet.edges) or sheet.edges[1]
         yield key, f"{written(along)} of {what}", allowed, f'did you mean "{name}.{near}"?'
@@ -240,19 +294,13 @@ def _rope(
     path: Path, rope: RopeSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
     called = f"rope '{parts.name_of(cast(int, path[1]))}'"
-    for one in _along(path, called, rope.along, parts, sheets):
+    for one in edge_named(path, called, rope.along, parts, sheets):
         if len(one) == 4:
             yield one
             continue
         count, built = one
         if count == 1:
-            allowed = "an edge of several knots"
-            yield (
-                (*path, "along"),
-                f"{written(rope.along)} of {called}, one knot",
-                allowed,
-                "name another edge",
-            )
+            yield _one_knot(path, called, rope.along)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -266,6 +314,25 @@ def _rope(
             )
 
 
+def _way(
+    path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
+) -> Iterator[Finding]:
+    """What is wrong with the edge that a ring or a collar follows, if it follows one."""
+    if part.along is None:
+        return
+    called = f"{part.kind} '{parts.name_of(cast(int, path[1]))}'"
+    for one in edge_named(path, called, part.along, parts, sheets):
+        if len(one) == 4:
+            yield one
+        elif one[0] == 1:
+            yield _one_knot(path, called, part.along)
+
+
+def _one_knot(path: Path, called: str, along: str) -> Finding:
+    found = f"{written(along)} of {called}, one knot"
+    return (*path, "along"), found, "an edge of several knots", "name another edge"
+
+
 def _hung(
     path: Path, bodies: BodiesSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
@@ -277,7 +344,7 @@ def _hung(
         yield (*path, "along"), found, "an edge (along) or labels of knots (at)", cure
         return
     if bodies.along is not None:
-        for one in _along(path, called, bodies.along, parts, sheets):
+        for one in edge_named(path, called, bodies.along, parts, sheets):
             if len(one) == 4:
                 yield one
             elif bodies.count is not None and bodies.count > one[0]:

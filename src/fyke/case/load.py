@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from .check import Parts, file_problems, findings
 from .errors import CaseError, Problem
 from .explain import explain
+from .load_case import LoadCaseSpec, choosing, chosen
 from .oddities import warnings
 from .places import Path, Places
 from .schema import Case
@@ -54,7 +55,7 @@ def parse_case(text: str, where: str = "case", *, path: FilePath | None = None) 
 
     Raises CaseError with every problem found.
     """
-    raw = _toml(text, where)
+    raw = chosen(_toml(text, where))
     places = Places(where, text)
     problems: dict[Path, Problem] = {}
     meant: set[Path] = set()
@@ -80,13 +81,25 @@ def recorded_case(text: str) -> Case:
     Raises CaseError for a text that this version of fyke does not take.
     """
     context: dict[str, Any] = {"text": text}
-    raw = _toml(text, "case of the result")
+    raw = chosen(_toml(text, "case of the result"))
     try:
         case = Case.model_validate(raw, context=context)
     except ValidationError as error:
         problems, _ = explain(error, Places("case of the result", text))
         raise CaseError(list(problems.values())) from None
     return Case.model_validate(raw, context={**context, "warnings": warnings(case)})
+
+
+def load_cases_of(case: Case) -> tuple[tuple[LoadCaseSpec, str, Case], ...]:
+    """Return the load cases of a case file: what the file says of each, its name, and the case that it makes.
+
+    Raises CaseError where a file that one names is gone.
+    """
+    where = str(case.path or "case")
+    named = [(spec, spec.given_name or str(number)) for number, spec in enumerate(case.load_case, 1)]
+    return tuple(
+        (spec, name, parse_case(choosing(case.text, name), where, path=case.path)) for spec, name in named
+    )
 
 
 def _unreadable(file: FilePath, error: OSError | ValueError) -> Problem:

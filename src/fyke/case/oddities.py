@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import numpy as np
 
-from ..netting.lattice import hanging_ratios
+from ..netting.joining import stitches
+from ..netting.lattice import Corner, Side, hanging_ratios
+from ..netting.together import together
 from .gear import LARGEST_STRAIN
+from .grouping import rounded
+from .motion_check import motion_oddities
 from .schema import Case
 from .water_check import current_oddities
 from .waves import wave_oddities
@@ -24,10 +29,13 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_frames(case),
         *_unused(case),
         *_no_effect(case),
+        *_seams(case),
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
+        *motion_oddities(case),
     )
 
 
@@ -57,11 +65,13 @@ def _thin_knots(case: Case) -> Iterator[str]:
 
 def _frames(case: Case) -> Iterator[str]:
     for netting, sheet in case.sheets:
-        shape = "netting" if sheet.rims else "panel"
+        shape = "netting" if sheet.closed else "panel"
         what = f"{shape} '{sheet.name}'" if sheet.name else f"the {shape}"
         on, sides = ("its frame", ("width", "height"))
         if sheet.rims:
             on, sides = ("its rims", ("mean way round", "height along the netting"))
+        if sheet.sides:
+            on, sides = ("the box", ("way round", "depth"))
         strain = sheet.strain(netting)
         # Rounding alone must not warn: a netting hung at E1^2 + E2^2 = 1 is just taut.
         if strain > 1e-9:
@@ -85,8 +95,11 @@ def _unused(case: Case) -> Iterator[str]:
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
     for name in sorted(case.twine.keys() - spun):
         yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
-    for name in sorted(case.material.keys() - {twine.material for twine in case.twine.values()}):
-        yield f"Material '{name}' is not used by any twine."
+    for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
+        yield f"Tube '{name}' is not used by any ring or collar."
+    made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}
+    for name in sorted(case.material.keys() - made):
+        yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 
 def _no_effect(case: Case) -> Iterator[str]:
@@ -96,6 +109,37 @@ def _no_effect(case: Case) -> Iterator[str]:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
+
+
+def _seams(case: Case) -> Iterator[str]:
+    """Edges that lie apart before they are joined."""
+    owner = {
+        sheet.name: piece for piece in case.pieces for sheet in piece.sheets(case.netting[piece.netting])
+    }
+    for seam in case.seams:
+        one, other = (cast("tuple[str, Side | Corner]", edge.rpartition(".")[::2]) for edge in seam.join)
+        both = [owner[name] for name in dict.fromkeys((one[0], other[0]))]
+        pieces = [piece for k, piece in enumerate(both) if piece not in both[:k]]
+        groups = {piece.group for piece in pieces}
+        if len(groups) > 1:
+            yield (
+                f"Seam '{seam.name}' joins netting whose groups differ, {' and '.join(map(str, sorted(groups)))}: the "
+                "finer meshes are gathered at the knots of the coarser; give both the same group."
+            )
+        net = together(
+            [
+                piece.lay(case.netting[piece.netting], case.twines[case.netting[piece.netting].twine])
+                for piece in pieces
+            ]
+        )
+        stays, goes = stitches(net, one, other)
+        apart = float(np.linalg.norm(net.positions[stays] - net.positions[goes], axis=1).max())
+        mesh = 2.0 * max(panel.bar_length for panel in net.panels)
+        if apart > mesh:
+            yield (
+                f"The edges of seam '{seam.name}' lie up to {apart:.3g} m apart, more than a stretched mesh of "
+                f"{mesh:.3g} m: their knots are put together, and the bars there begin as long as that makes them."
+            )
 
 
 def _sheltered_twice(case: Case) -> Iterator[str]:

@@ -13,7 +13,8 @@ _HEADER = re.compile(rf"\s*(\[\[?)\s*({_DOTTED})\s*\]\]?\s*(?:#.*)?")
 _ASSIGNMENT = re.compile(rf"\s*({_DOTTED})\s*=(.*)")
 _STRING_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*')
 _TRIPLE = re.compile("\"\"\"|'''")
-_NAMED = ("material", "twine", "netting", "gear")  # tables whose second step is a name or a number
+_LISTED = ("gear", "motion", "load_case")  # tables whose second step is a number
+_NAMED = ("material", "twine", "tube", "netting", *_LISTED)  # those whose second step is that or a name
 
 
 class Places:
@@ -44,8 +45,8 @@ def key_name(path: Path) -> str:
     if len(path) == 1:
         return str(path[0])
     depth = 2 if path[0] in _NAMED else 1
-    if path[0] == "gear":
-        table = f"[[gear]] {int(path[1]) + 1}"
+    if path[0] in _LISTED:
+        table = f"[[{path[0]}]] {int(path[1]) + 1}"
     else:
         table = "[" + ".".join(str(step) for step in path[:depth]) + "]"
     keys = ".".join(step for step in path[depth:] if isinstance(step, str))

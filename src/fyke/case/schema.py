@@ -9,16 +9,24 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, PrivateAttr
 
+from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
+from .box import BoxSpec
 from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
+from .grouping import GroupingSpec, choose_groups
+from .load_case import LoadCaseSpec
+from .motion import MotionSpec
 from .quantity import Quantity, wrong
 from .rigging import BodiesSpec, FloatsSpec, RopeSpec, SinkersSpec
+from .seams import SeamSpec
 from .shapes import ConeSpec, CylinderSpec, FrustumSpec
 from .shelter import ShelterSpec
+from .tapered import TrapezoidSpec, TriangleSpec
+from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
@@ -88,7 +96,19 @@ class DynamicSolve(Table):
 
 
 Gear = Annotated[
-    PanelSpec | CylinderSpec | ConeSpec | FrustumSpec | RopeSpec | SinkersSpec | FloatsSpec,
+    PanelSpec
+    | TrapezoidSpec
+    | TriangleSpec
+    | CylinderSpec
+    | ConeSpec
+    | FrustumSpec
+    | BoxSpec
+    | SeamSpec
+    | RopeSpec
+    | RingSpec
+    | CollarSpec
+    | SinkersSpec
+    | FloatsSpec,
     Field(discriminator="kind"),
 ]
 
@@ -138,18 +158,29 @@ class Case(Table):
     twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
         Field(description="twines by name", examples=[{"main": {}}])
     )
+    tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
+        default={}, description="tubes by name"
+    )
     netting: Annotated[
         dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
     ] = Field(description="nettings by name")
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, sinkers and floats, one [[gear]] each"
     )
+    grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
+    motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
     drag: Drag = Field(default=Drag(), description="coefficient laws of drag")
     added_mass: AddedMass = Field(default=AddedMass(), description="added mass coefficients")
     shelter: ShelterSpec = Field(default=ShelterSpec(), description="what netting takes of the current")
     solve: SolveSpec = Field(default=StaticSolve(), description="how to solve")
     output: Output = Field(default=Output(), description="what to write")
     compare: Compare | None = Field(default=None, description="measurements")
+    load_case: tuple[LoadCaseSpec, ...] = Field(
+        default=(), description="the same gear in other currents and waves, one [[load_case]] each"
+    )
+    chosen_load_case: Name | None = Field(
+        default=None, description="name of the one load case that is meant, in place of [current] and [waves]"
+    )
     _text: str = PrivateAttr(default="")
     _path: Path | None = PrivateAttr(default=None)
     _warnings: tuple[str, ...] = PrivateAttr(default=())
@@ -166,6 +197,13 @@ class Case(Table):
             part.call(str(number) if len(self.gear) > 1 else "")
             if isinstance(part, Piece) and part.netting in self.netting:
                 part.settle(self.netting[part.netting])
+        made = [(one, self.netting[one.netting]) for one in self.pieces if one.netting in self.netting]
+        for (piece, _), group in zip(
+            made, choose_groups(made, self.grouping.knots if self.grouping else None), strict=True
+        ):
+            piece.gather(group)
+        for motion in self.motion:
+            motion.settle(self.folder)
         self.current.settle(self.folder, self.water.depth, static=self.solve.kind == "static")
 
     @property
@@ -199,6 +237,12 @@ class Case(Table):
         return {name: spec.twine(name) for name, spec in self.twine.items()}
 
     @property
+    def tubes(self) -> dict[str, Tube]:
+        """The tubes of rings and collars, by name."""
+        own = {name: spec.material(name) for name, spec in self.material.items()}
+        return {name: spec.tube(own) for name, spec in self.tube.items()}
+
+    @property
     def folder(self) -> Path:
         """The folder that file names count from: of the case file, the present one for a text."""
         return self._path.parent if self._path else Path()
@@ -209,9 +253,19 @@ class Case(Table):
         return tuple(part for part in self.gear if isinstance(part, Piece))
 
     @property
+    def seams(self) -> tuple[SeamSpec, ...]:
+        """The gear that is seams."""
+        return tuple(part for part in self.gear if isinstance(part, SeamSpec))
+
+    @property
     def ropes(self) -> tuple[RopeSpec, ...]:
         """The gear that is ropes."""
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
+
+    @property
+    def tubulars(self) -> tuple[TubularSpec, ...]:
+        """The gear that is made of tubes."""
+        return tuple(part for part in self.gear if isinstance(part, TubularSpec))
 
     @property
     def bodies(self) -> tuple[BodiesSpec, ...]:
@@ -229,7 +283,7 @@ class Case(Table):
         """Solidity of the netting as it is hung, the mean by its areas."""
         solid, area = 0.0, 0.0
         for netting, sheet in self.sheets:
-            outline = sheet.size[0] * sheet.size[1]
+            outline = sheet.area(netting.mesh)
             solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
         return solid / area

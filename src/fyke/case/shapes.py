@@ -18,7 +18,6 @@ from .gear import NettingSpec, Piece, Sheet, ratios
 from .quantity import wrong
 
 RimEdge = Literal["top", "edges", "none"]
-LEAST_AROUND = 3  # meshes that go round an axis
 
 
 def _one_diameter(value: Any) -> Any:
@@ -103,7 +102,15 @@ class RoundSpec(Piece, ABC):
         (low, high), height = known
         knot = netting.knot_diameter or 0.0
         return cage(
-            Netting(twine, netting.mesh, netting.bar_length, knot, netting.knot_density, netting.segments),
+            Netting(
+                twine,
+                netting.mesh,
+                netting.bar_length,
+                knot,
+                netting.knot_density,
+                netting.segments,
+                self.group,
+            ),
             self.meshes,
             diameter=high,
             depth=height,

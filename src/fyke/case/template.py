@@ -75,6 +75,10 @@ knot_diameter = "3.5 mm"             # leave out for knotless netting
 # orientation = "T0"                 # of hexagons: long bars along the height (T0) or the width (T90)
 # knot_density = 1140.0              # kg/m3, the twine's by default
 # segments = 2                       # straight pieces of every bar, so that it can bow; 1 by default
+# group = 4                          # one mesh is laid for 4 x 4; 1 by default; also in one [[gear]] of netting alone
+
+# [grouping]                         # instead of group: as fine as so many knots of all netting together allow
+# knots = 5000
 
 [[gear]]                             # one for every part
 kind = "panel"
@@ -106,6 +110,34 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # twine = "main"
 # along = "cage.bottom"              # NAME.EDGE of netting: top, bottom, left, right
 # length = "2.5 m"                   # unloaded, that of the edge by default
+# [tube.pipe]                        # of rings and collars
+# material = "HDPE"                  # HDPE, steel or your own: density, modulus, yield stress where you give none
+# diameter = "315 mm"                # outer
+# wall = "17.9 mm"
+# contents = "air"                   # air | water
+# density = 958.0                    # kg/m3, of the wall
+# youngs_modulus = "900 MPa"
+# mass_per_length = "18 kg/m"        # with what is fitted to it; that of the wall by default
+# yield_stress = "26 MPa"            # which the largest stress is compared with
+# [[gear]]
+# kind = "collar"                    # floats, and sets the edge free
+# name = "collar"
+# tube = "pipe"
+# tubes = 2                          # side by side
+# rigid = false                      # true: it keeps its shape
+# along = "cage.top"
+# [[gear]]
+# kind = "ring"                      # such as a sinker tube
+# name = "sinker tube"
+# tube = "pipe"
+# along = "cage.bottom"
+# [[gear]]
+# kind = "ring"                      # of its own, its knots "hoop:0", "hoop:1" ...
+# name = "hoop"
+# tube = "pipe"
+# diameter = "25 m"
+# centre = [0.0, 0.0, -15.0]
+# knots = 48
 # [[gear]]
 # kind = "sinkers"
 # name = "weights"
@@ -120,6 +152,17 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # at = ["cage:0-0", "cage:8-0"]      # labels of knots; or along, as for sinkers
 # buoyancy = "5 N"                   # lift of each one under water, with its density
 # density = 200.0
+
+# Held knots that move, in a dynamic case; several [[motion]] of the same knots add up:
+# [[motion]]
+# of = ["cage.top"]                  # NAME.EDGE, labels of knots, names of gear; all held knots by default
+# velocity = [-0.5, 0.0, 0.0]        # m/s, of a tow
+# amplitude = [0.0, 0.0, 0.5]        # m, of a swing, amplitude x sin(2 pi t / period + phase)
+# period = "6 s"
+# phase = "0 deg"
+# rotation = { axis = [0, 1, 0], point = [0, 0, 0], amplitude = "5 deg", period = "6 s" }   # or rate = "10 deg/s"
+# file = "motion.csv"                # columns time,dx,dy,dz (s, m), time,roll,pitch,yaw (deg) or all of them
+# ramp = "2 s"                       # smooth start
 
 [drag]
 bars = { law = "constant", normal = 1.2, tangential = 0.1 }    # on diameter x current length
@@ -160,6 +203,14 @@ kind = "static"                      # static | dynamic
 [output]
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
 # probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
+
+# [[load_case]]                      # the same gear in other water: one table, folder and row of loads.csv for each
+# name = "50 years"
+# current = { speed = 0.9, direction = "0 deg" }     # with the keys of [current], in its place
+# waves = { kind = "jonswap", significant_height = 2.5, peak_period = "7 s" }        # in place of [waves]
+# load_factor = 1.3                  # of the utilisation of breaking strengths, as material_factor is
+# material_factor = 1.5
+# By chosen_load_case at the top of the file, the name of one, that one is run alone.
 
 # [compare]                          # measured positions to lay over the result
 # positions = "measured.csv"         # beside this file; columns knot,x,y,z (m), knot as "row-column"

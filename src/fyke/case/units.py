@@ -113,6 +113,12 @@ VISCOSITY = Kind(
 )
 ENERGY = Kind("energy", "J", {"J": Fraction(1), "mJ": Fraction("1e-3"), "uJ": Fraction("1e-6")}, "1 uJ")
 ANGLE = Kind("angle", "rad", {"deg": Fraction(math.pi) / 180, "rad": Fraction(1)}, "15 deg")
+ANGULAR_SPEED = Kind(
+    "angular speed",
+    "rad/s",
+    {"deg/s": Fraction(math.pi) / 180, "rad/s": Fraction(1), "rpm": Fraction(math.pi) / 30},
+    "10 deg/s",
+)
 ACCELERATION = Kind("acceleration", "m/s2", {"m/s2": Fraction(1)}, "9.81 m/s2")
 RATIO = Kind("ratio", "", {"%": Fraction("1e-2")}, "45 %")
 
@@ -128,6 +134,7 @@ KINDS = (
     VISCOSITY,
     ENERGY,
     ANGLE,
+    ANGULAR_SPEED,
     ACCELERATION,
     RATIO,
 )

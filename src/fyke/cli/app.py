@@ -57,7 +57,8 @@ def run(
 ) -> None:
     """Solve a case and write its result, tables and figures."""
     began = time.perf_counter()
-    from .run import Wishes, run_case
+    from .load_cases import Wishes
+    from .run import run_case
 
     wishes = Wishes(
         output=output, figures=figures, overwrite=overwrite, resume=resume, quiet=quiet, json=json

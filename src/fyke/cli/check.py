@@ -15,12 +15,23 @@ from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Panel
 from ..results.ranges import bar_values, knot_values, out_of_range
 from ..system.build import build_net, build_system
+from ..system.carriage import seen_from_the_carriage
+from ..system.hanging import hanging
 from ..system.system import System
 from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from ..water.wakes import GivenWake
-from .check_rigging import bodies_of, body_rows, rope_rows, ropes_of
+from .check_rigging import (
+    bodies_of,
+    body_rows,
+    rope_rows,
+    ropes_of,
+    seam_rows,
+    seams_of,
+    tube_rows,
+    tubes_of,
+)
 from .show import (
     DONE,
     WRONG_INPUT,
@@ -57,14 +68,18 @@ def check_case(file: Path, *, json: bool) -> int:
 def judge(case: Case) -> dict[str, Any]:
     """Return what the case would build, ready for JSON.
 
-    mass: in air (kg); weight_in_water: N, positive sinks; panels: one table each sheet of netting, lengths in m, areas
-    in m2, mass_per_area in kg/m2, rtex in tex; strain: largest as built, negative where all bars are slack; rims:
-    diameters (m) of the lower and the upper rim of netting that closes round, None of a flat panel;
+    real_knots, real_bars: of the real netting, twine_length: of all its bars (m), group: the most real meshes that
+    one stands for along an axis; laid: meshes of a panel as it is laid. mass: in air (kg); weight_in_water: N,
+    positive sinks; panels: one table each sheet of netting, lengths in m, areas in m2, mass_per_area in kg/m2, rtex
+    in tex; strain: largest as built, negative where all bars are slack; rims: diameters (m) of the lower and the
+    upper rim of netting that closes round, None of a flat panel; ends: meshes along the upper and the lower edge of one
+    that is cut to shape, else None;
     reynolds: speed of the current at the surface times twine diameter over viscosity; reynolds_across: least and
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
-    ropes: one table each, lengths in m, stiffness: EA in N; bodies: floats and sinkers, one table each kind, mass (kg),
-    diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one, total_weight of all.
+    seams: one table each, knots of both edges; ropes: the same, lengths in m, stiffness: EA in N; tubes: rings and
+    collars, see tubes_of; bodies: floats and sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N,
+    negative floats) and drag_area (m2) of each one, total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -72,8 +87,7 @@ def judge(case: Case) -> dict[str, Any]:
     system = build_system(net, case)
     measures, viscosity = measure_net(net), system.water.kinematic_viscosity
     steady = replace(
-        system,
-        current=at_full_strength(system.current),
+        _from_the_carriage(system),
         waves=None,
         coefficients=replace(system.coefficients, wake=None, twines=None),
     )
@@ -91,18 +105,39 @@ def judge(case: Case) -> dict[str, Any]:
         "current": list(case.current.at_surface),
         "current_words": case.current.described,
         "waves": case.waves.described if case.waves else None,
+        "motion": _motions(case, system),
         "drag": _drag(system),
         "shelter": _shelter(system),
         "panels": [
             _panel(case, system, panel, made, *numbers)
             for panel, made in zip(net.panels, case.sheets, strict=True)
         ],
+        "seams": seams_of(case),
         "ropes": ropes_of(case, system),
+        "tubes": tubes_of(case, system),
         "bodies": bodies_of(case, system),
-        "warnings": [*case.warnings, *outside.warnings],
+        "warnings": [*case.warnings, *hanging(system, static=case.solve.kind == "static"), *outside.warnings],
         "out_of_range": outside.counts,
         "case_sha256": case.sha256,
     }
+
+
+def _from_the_carriage(system: System) -> System:
+    """Return a towed system as it is seen from the carriage, where one carriage tows it."""
+    full = replace(system, current=at_full_strength(system.current))
+    try:
+        return seen_from_the_carriage(full)
+    except ValueError:
+        return full
+
+
+def _motions(case: Case, system: System) -> list[dict[str, Any]]:
+    """Return how many knots each motion moves, of what, and how."""
+    moves = system.motion.moves if system.motion else ()
+    return [
+        {"of": list(spec.of) if spec.of else None, "knots": len(move.knots), "words": spec.described}
+        for spec, move in zip(case.motion, moves, strict=False)
+    ]
 
 
 def _drag(system: System) -> dict[str, str]:
@@ -142,7 +177,9 @@ def _panel(
         "shape": panel.shape,
         "netting": next(name for name, spec in case.netting.items() if spec is netting),
         "mesh": netting.mesh_name,
-        "meshes": list(panel.meshes),
+        "meshes": list(panel.real_meshes),
+        "laid": list(panel.meshes),
+        "ends": [len(panel.edge(end)) - 1 for end in ("top", "bottom")] if panel.taper else None,
         "segments": netting.segments,
         "size": list(panel.size),
         "rims": list(sheet.rims) if sheet.rims else None,
@@ -164,8 +201,16 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         ("solve", findings["solve"]),
         ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
         *([("waves", findings["waves"])] if findings["waves"] else []),
-        ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}"),
-        ("bars", f"{findings['bars']}"),
+        *(
+            (
+                "motion",
+                f"{', '.join(one['of'] or ['all that is held'])} ({one['knots']} knots): {one['words']}",
+            )
+            for one in findings["motion"]
+        ),
+        ("knots", f"{findings['knots']}, of which fixed {findings['fixed']}" + _real(findings, "real_knots")),
+        ("bars", f"{findings['bars']}" + _real(findings, "real_bars")),
+        ("length of bars", quantity(findings["twine_length"], "m")),
         ("drag", _words(findings["drag"])),
         *([("shelter", _words(findings["shelter"]))] if findings["shelter"] else []),
         ("mass in air", quantity(findings["mass"], "kg")),
@@ -175,13 +220,21 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
     for panel in findings["panels"]:
         name = f"{panel['shape']} {panel['name']}".rstrip()
         print_rows(console, f"{name}: {panel['mesh']} netting '{panel['netting']}'", _panel_rows(panel))
+    for seam in findings["seams"]:
+        print_rows(console, f"seam {seam['name']}", seam_rows(seam))
     for rope in findings["ropes"]:
         print_rows(console, f"rope {rope['name']}: twine '{rope['twine']}'", rope_rows(rope))
+    for tube in findings["tubes"]:
+        print_rows(console, f"{tube['kind']} {tube['name']}: tube '{tube['tube']}'", tube_rows(tube))
     for bodies in findings["bodies"]:
         print_rows(console, f"{bodies['kind']} {bodies['name']}", body_rows(bodies))
     print_warnings(console, findings["warnings"])
     if not findings["warnings"]:
         console.print("Nothing looks odd.")
+
+
+def _real(findings: dict[str, Any], key: str) -> str:
+    return f", for {findings[key]} real ones" if findings["group"] > 1.0 else ""
 
 
 def _words(laws: dict[str, str]) -> str:
@@ -190,11 +243,17 @@ def _words(laws: dict[str, str]) -> str:
 
 def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
     across, down = panel["meshes"]
+    few, rows = panel["laid"]
     width, height = panel["size"]
     e1, e2 = panel["hanging_ratios"]
     state = "taut" if panel["strain"] > 0.0 else "slack"
     return [
-        ("meshes", f"{across} x {down} = {across * down}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
+        ("meshes", f"{_meshes(panel)}, stretched {panel['mesh_length'] * 1e3:.4g} mm"),
+        *(
+            [("laid with", f"{few} x {rows} = {few * rows}, one for {across / few:.4g} x {down / rows:.4g}")]
+            if [few, rows] != [across, down]
+            else []
+        ),
         *([("bars", f"in {panel['segments']} segments each")] if panel["segments"] > 1 else []),
         *_outline(panel, width, height),
         ("hanging ratios", f"E1 = {e1:.4f}, E2 = {e2:.4f}"),
@@ -212,8 +271,18 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
     ]
 
 
+def _meshes(panel: dict[str, Any]) -> str:
+    across, down = panel["meshes"]
+    if panel["ends"]:
+        high, low = panel["ends"]
+        return f"{high} above, {low} below, {down} high"
+    return f"{across} x {down} = {across * down}"
+
+
 def _outline(panel: dict[str, Any], width: float, height: float) -> list[tuple[str, str]]:
     area = quantity(panel["outline_area"], "m2")
+    if panel["shape"] == "box":
+        return [("walls", f"{width:.4g} m round, {height:.4g} m deep, {area}")]
     if panel["rims"] is None:
         return [("frame", f"{width:.4g} m x {height:.4g} m, {area}")]
     low, high = panel["rims"]

@@ -15,7 +15,8 @@ from ..results import CheckpointError, ResultError, frame_bytes, frames_of, load
 from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
-PARTS, WAVES = "parts.csv", "waves.csv"
+PARTS, RINGS, WAVES = "parts.csv", "rings.csv", "waves.csv"
+LOADS, LOADS_BY_PART, LOAD_CASES = "loads.csv", "loads_by_part.csv", "load_cases"  # the last a folder
 CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
 PICTURES = (
@@ -77,8 +78,24 @@ def _memory() -> float:
 
 def _clear(folder: Path) -> None:
     pictures = [f"{stem}.{kind}" for stem in PICTURES for kind in ("png", "svg")]
-    for name in (RESULT, SUMMARY, KNOTS, BARS, PARTS, WAVES, CHECKPOINT, *pictures):
+    for name in (
+        RESULT,
+        SUMMARY,
+        KNOTS,
+        BARS,
+        PARTS,
+        RINGS,
+        WAVES,
+        LOADS,
+        LOADS_BY_PART,
+        CHECKPOINT,
+        *pictures,
+    ):
         (folder / name).unlink(missing_ok=True)
+    for one in (folder / LOAD_CASES).glob("*/"):
+        _clear(one)
+        if not any(one.iterdir()):
+            one.rmdir()
 
 
 def _refusal(folder: Path, found: str, cure: str) -> CaseError:

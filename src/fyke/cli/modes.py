@@ -14,6 +14,7 @@ from ..solve.modes import Modes, modes
 from ..solve.result import Result
 from ..solve.static import solve_static
 from ..system.build import build_net, build_system
+from ..system.carriage import seen_from_the_carriage
 from ..system.system import System
 from ..water.current import at_full_strength
 from .show import (
@@ -39,7 +40,7 @@ def show_modes(file: Path, count: int, *, json: bool) -> int:
     try:
         case = load_case(file)
         system = build_system(build_net(case), case)
-        system = replace(system, current=at_full_strength(system.current))
+        system = _at_rest(file, replace(system, current=at_full_strength(system.current)))
         rest = solve_static(system, tolerance=case.solve.tolerance)
         found = _modes(file, system, rest, count) if rest.outcome.ok else None
     except CaseError as error:
@@ -58,6 +59,17 @@ def show_modes(file: Path, count: int, *, json: bool) -> int:
     end = rest.outcome
     stderr().print(Text(f"{end.name}: {end.message}\n{end.advice}".rstrip()))
     return NOT_CONVERGED
+
+
+def _at_rest(file: Path, system: System) -> System:
+    """Return a system that may come to rest: a towed one as it is seen from the carriage."""
+    try:
+        return seen_from_the_carriage(system)
+    except ValueError as error:
+        cure = "tow all held knots at one velocity"
+        raise CaseError(
+            [Problem(f"{file}, [[motion]]", str(error), "a net that comes to rest", cure)]
+        ) from None
 
 
 def _modes(file: Path, system: System, rest: Result, count: int) -> Modes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +17,16 @@ from ..results import (
     moments,
     out_of_range,
     part_figures,
+    rings_told,
     summary,
     water_figures,
 )
 from ..solve.result import Result
 from ..system.build import build_net, build_system
+from ..system.hanging import hanging
 from ..system.system import System
 from .export import case_of, opened, taken, unwritten
+from .folder import SUMMARY
 from .show import DONE, WRONG_INPUT, print_problems, print_warnings, stderr, stdout
 from .texts import sources_of
 
@@ -54,6 +58,7 @@ def report_result(file: Path, output: Path | None, positions: Path | None, *, ov
         if case is None and result.case_text:
             warnings.append(LOST)
         figures["warnings"] += warnings
+        figures["load_cases"], figures["worst_load_case"] = _load_cases(source, figures["case_sha256"])
         sources = () if case is None or system is None else sources_of(case, system)
         origin = Origin(source, case, system, sources)
         write_report(result, target, figures=figures, origin=origin, comparison=comparison)
@@ -105,6 +110,19 @@ def _figures(result: Result, case: Case | None, system: System | None) -> dict[s
     if system is not None:
         depth = None if case is None else case.water.depth
         figures |= water_figures(system, result) | part_figures(system, result, depth=depth)
+        figures |= rings_told(system, result)
+        warnings += hanging(system, static=case is not None and case.solve.kind == "static")
         warnings += out_of_range(system, moments(result)).warnings
     figures["warnings"] = list(dict.fromkeys(warnings))
     return figures
+
+
+def _load_cases(source: Path, case_sha256: str) -> tuple[list[dict[str, Any]], str | None]:
+    """Return the load cases that the summary beside a result tells of, and the worst; none of another case."""
+    try:
+        told = json.loads(source.with_name(SUMMARY).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return [], None
+    if not isinstance(told, dict) or told.get("case_sha256") != case_sha256:
+        return [], None
+    return told.get("load_cases", []), told.get("worst_load_case")

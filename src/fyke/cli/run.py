@@ -5,11 +5,8 @@ from __future__ import annotations
 import math
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
-
-from rich.text import Text
 
 from ..case import Case, CaseError, Problem, load_case
 from ..forces.evaluate import evaluate
@@ -24,21 +21,26 @@ from ..results import (
     compare,
     flow_direction,
     load,
+    load_figures,
     mean_current,
     moments,
     out_of_range,
     part_figures,
     probes_of,
+    rings_told,
     save,
     save_checkpoint,
     summary,
     water_figures,
+    write_loads,
     write_parts,
     write_probes,
+    write_rings,
     write_summary,
     write_tables,
 )
 from ..results.parts import part_words
+from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
 from ..solve.dynamic import Checkpoint
@@ -46,13 +48,28 @@ from ..solve.outcome import Outcome
 from ..solve.result import Result
 from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
-from ..system.system import System
-from .folder import BARS, CHECKPOINT, KNOTS, PARTS, RESULT, SUMMARY, WAVES, claim, make_sure_of_room, stopped
+from ..system.hanging import hanging
+from ..system.system import State, System
+from .folder import (
+    BARS,
+    CHECKPOINT,
+    KNOTS,
+    PARTS,
+    RESULT,
+    RINGS,
+    SUMMARY,
+    WAVES,
+    claim,
+    make_sure_of_room,
+    stopped,
+)
+from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
 from .progress import progress_bar
 from .show import (
     DONE,
     NOT_CONVERGED,
     WRONG_INPUT,
+    complain,
     print_json,
     print_problems,
     print_rows,
@@ -67,23 +84,6 @@ from .show import (
 LEAST_SHOWN = 1e-3
 
 Stopped = tuple[Checkpoint, list[Frame]]
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """The options of a run; output: folder to write to, None for the case's name."""
-
-    output: Path | None = None
-    figures: bool = True
-    overwrite: bool = False
-    resume: bool = False
-    quiet: bool = False
-    json: bool = False
-
-    @property
-    def talk(self) -> bool:
-        """Whether to print for a reader."""
-        return not (self.quiet or self.json)
 
 
 def run_case(file: Path, wishes: Wishes, began: float | None = None) -> int:
@@ -117,10 +117,13 @@ def _prepare(file: Path, folder: Path, wishes: Wishes) -> tuple[Case, System, St
     if case.positions_file:
         # A fault of this file is told before the solve, and before an old result is taken away.
         compare(_as_built(case, system), case.positions_file)
+    if wishes.resume:
+        refuse_load_cases(case, folder)
     resume = stopped(folder, case) if wishes.resume else None
     if resume is None:
         make_sure_of_room(folder, system.net, planned_frames(case))
         claim(folder, overwrite=wishes.overwrite)
+    claim_load_cases(case, folder, wishes)
     return case, system, resume
 
 
@@ -143,8 +146,36 @@ def _cannot_write(folder: Path, error: OSError) -> Problem:
 def _run(
     case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None, clock: Clock
 ) -> int:
+    done = _solve_and_write(case, system, folder, wishes, clock, resume=resume)
+    figures, rows = done.figures, run_load_cases(case, system, done, folder, wishes, _solve_and_write)
+    if rows:
+        write_loads(rows, folder)
+        figures |= load_figures(rows) | {"time_by_part": clock.seconds}
+        write_summary(figures, folder)
+    if wishes.json:
+        print_json(figures)
+    elif wishes.talk:
+        _show(case, figures, done.pictures, folder)
+        print_loads(stdout(), rows)
+    if not done.result.outcome.ok:
+        complain(done.result.outcome)
+    fine = done.result.outcome.ok and len(rows) == len(case.load_case) and all(row.ok for row in rows)
+    return DONE if fine else NOT_CONVERGED
+
+
+def _solve_and_write(
+    case: Case,
+    system: System,
+    folder: Path,
+    wishes: Wishes,
+    clock: Clock,
+    *,
+    resume: Stopped | None = None,
+    start: State | None = None,
+) -> Done:
+    """Solve one case and write all that there is of it; start: of a static solve."""
     with timed("forces"):
-        result = _solve(case, system, folder, wishes, resume)
+        result = _solve(case, system, folder, wishes, resume, start)
     with timed("accounts"):
         comparison = compare(result, case.positions_file) if case.positions_file else None
         figures = _figures_of(case, system, result, comparison)
@@ -152,6 +183,7 @@ def _run(
     with timed("writing"):
         write_tables(result, folder)
         write_parts(figures["parts"], folder)
+        write_rings(figures.get("rings", []), folder)
         write_summary(figures, folder)
         if probes is not None:
             write_probes(probes, folder)
@@ -159,17 +191,12 @@ def _run(
         pictures = _draw(system, result, folder, comparison, probes) if wishes.figures else []
     figures["time_by_part"] = clock.seconds
     write_summary(figures, folder)
-    if wishes.json:
-        print_json(figures)
-    elif wishes.talk:
-        _show(case, figures, pictures, folder)
-    if result.outcome.ok:
-        return DONE
-    stderr().print(Text(f"{result.outcome.name}: {result.outcome.message}\n{result.outcome.advice}".rstrip()))
-    return NOT_CONVERGED
+    return Done(result, figures, pictures)
 
 
-def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None) -> Result:
+def _solve(
+    case: Case, system: System, folder: Path, wishes: Wishes, resume: Stopped | None, start: State | None
+) -> Result:
     """Solve a case, with every output and a checkpoint on disk as it comes, and leave the whole result in the file."""
     file, times, weight = folder / RESULT, planned_frames(case), system.weight_in_water
     frames = resume[1] if resume else ()
@@ -190,7 +217,13 @@ def _solve(case: Case, system: System, folder: Path, wishes: Wishes, resume: Sto
     ):
         try:
             result = solve_case(
-                system, case, on_frame=append, on_progress=report, on_checkpoint=keep, resume=resume
+                system,
+                case,
+                on_frame=append,
+                on_progress=report,
+                on_checkpoint=keep,
+                resume=resume,
+                start=start,
             )
         except KeyboardInterrupt:
             recorder.close()
@@ -230,9 +263,13 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
+    figures |= rings_told(system, result)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
-    figures["warnings"] = list(dict.fromkeys([*case.warnings, *result.outcome.warnings, *outside.warnings]))
+    held = hanging(system, static=case.solve.kind == "static")
+    figures["warnings"] = list(
+        dict.fromkeys([*case.warnings, *held, *result.outcome.warnings, *outside.warnings])
+    )
     figures["out_of_range"] = outside.counts
     if comparison is not None:
         figures["measured_knots"] = len(comparison.labels)
@@ -261,7 +298,7 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, PARTS, *([WAVES] if (folder / WAVES).is_file() else [])])
+    tables = ", ".join([KNOTS, BARS, PARTS, *(one for one in (RINGS, WAVES) if (folder / one).is_file())])
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -277,6 +314,16 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [
         ("outcome", f"{figures['outcome']}: {figures['message']}"),
         ("knots, bars", f"{figures['knots']}, {figures['bars']}"),
+        *(
+            [
+                (
+                    "for real ones",
+                    f"{figures['real_knots']}, {figures['real_bars']}; tensions are of one real bar",
+                )
+            ]
+            if figures["group"] > 1.0
+            else []
+        ),
         ("largest tension", quantity(figures["max_tension"], "N") + where),
         ("slack bars", f"{figures['slack_bars']} of {figures['bars']}"),
         ("drag, lift", f"{quantity(figures['drag'], 'N')}, {quantity(figures['lift'], 'N')}"),
@@ -285,6 +332,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *water_words(figures),
         *part_words(figures),
+        *ring_words(figures),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
@@ -329,6 +377,8 @@ def _account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         }
         if energy["inertia_work"]:
             taken["inertia of the water"] = energy["inertia_work"]
+        if energy["support_work"]:
+            taken["moved supports"] = energy["support_work"]
         if energy["parts_work"]:
             taken["bending and bed"] = energy["parts_work"]
         given = {

@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.text import Text
 
 from ..case.errors import Problem
+from ..solve.outcome import Outcome
 
 WIDTH = 80
 DONE, NOT_CONVERGED, WRONG_INPUT = 0, 1, 2  # the exit codes
@@ -64,6 +65,12 @@ def print_problems(problems: Sequence[Problem]) -> None:
         console.print(Text(f"{len(problems)} problems:\n", style="red"))
     for number, problem in enumerate(problems):
         console.print(Text("\n" * (number > 0) + str(problem)), soft_wrap=True)
+
+
+def complain(outcome: Outcome, of: str = "") -> None:
+    """Print on stderr how a solve failed and what to do about it; of: the name of its load case."""
+    text = f"{outcome.name}: {outcome.message}\n{outcome.advice}".rstrip()
+    stderr().print(Text(f"load case {of}: {text}" if of else text))
 
 
 def problems_as_json(problems: Sequence[Problem]) -> dict[str, Any]:

@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
+from ..system.elements import Elements
 from .compiled import OPTIONS
 from .drag import bar_water_force, bar_water_tangents
 from .tension import law_tension
@@ -39,6 +41,11 @@ def elastic(stretch, el, f, k):
             tension, slope = law_tension(strain, el.law_rows, el.law_first[e], el.law_end[e])
             f[e] = tension if stretch[e] > 0.0 else -tension
             k[e] = slope / el.rest_length[e]
+
+
+def borne(force: NDArray[np.float64], el: Elements) -> NDArray[np.float64]:
+    """What bars bear of the forces (m,) N of their law: all where they are two-way, else nothing that pushes."""
+    return np.where(el.two_way, force, np.maximum(force, 0.0))
 
 
 @njit(**OPTIONS)

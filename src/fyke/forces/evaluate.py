@@ -7,11 +7,11 @@ from numba import njit
 from numpy.typing import NDArray
 
 from ..system.system import State, System
-from .bars import add_tension, bar_geometry, elastic, largest_on_free
+from .bars import add_tension, bar_geometry, borne, elastic, largest_on_free
 from .compiled import OPTIONS
 from .drag import bar_water_force
 from .frame import Frame
-from .inertia import kinetic_energy, mass_matrices
+from .inertia import inertia_forces, kinetic_energy, mass_matrices
 from .surroundings import Surroundings
 
 Array = NDArray[np.float64]
@@ -35,15 +35,15 @@ def water_on_bars(rel, el, t, length, out):
 
 
 def bar_tensions(system: System, state: State, t: Array, length: Array) -> Array:
-    """Tension of every bar, (m,) N: elastic law and twine damping, zero where slack, never negative."""
+    """Tension of every bar, (m,) N: elastic law and twine damping, zero where slack, negative in tubes that push."""
     el = system.elements
     stretch = length - el.rest_length
     f, k = np.empty_like(length), np.empty_like(length)
     elastic(stretch, el, f, k)
     v = state.velocity
     rate = np.einsum("eq,eq->e", v[el.knot_b] - v[el.knot_a], t)
-    tension = np.where(stretch > 0.0, f + el.damping_time * k * rate, 0.0)
-    return np.maximum(tension, 0.0)
+    bears = el.two_way | (stretch > 0.0)
+    return borne(np.where(bears, f + el.damping_time * k * rate, 0.0), el)
 
 
 def share_with_bars(forces: Array, sides: NDArray[np.int64], out: Array) -> None:
@@ -72,22 +72,28 @@ def evaluate(system: System, state: State) -> Frame:
         water -= surroundings.load_of_parts()
     add_tension(tension, el, t, total)
     flow = 0.5 * (u[el.knot_a] + u[el.knot_b])
-    speed = np.linalg.norm(flow, axis=1)
-    direction = flow / np.where(speed > 0.0, speed, 1.0)[:, None]
+    past = flow if system.motion is None else flow - system.motion.tow
+    speed = np.linalg.norm(past, axis=1)
+    direction = past / np.where(speed > 0.0, speed, 1.0)[:, None]
     drag = np.einsum("eq,eq->e", on_bars, direction)
     mass = np.empty((n, 6))
     mass_matrices(state.position, el, mass)
+    held = total[el.free == 0.0]
+    if system.motion is not None:
+        inertia = np.empty((n, 3))
+        inertia_forces(mass, system.motion.acceleration(state.time), inertia)
+        held = held - inertia[el.free == 0.0]
     return Frame(
         time=state.time,
         position=state.position,
         velocity=state.velocity,
-        tension=tension,
+        tension=tension / system.net.bar_multiple,
         bar_drag=drag,
         bar_lift=np.linalg.norm(on_bars - drag[:, None] * direction, axis=1),
         water_velocity=flow,
         water_force=water,
         hydrodynamic_force=water.sum(axis=0),
-        support_reaction=total[el.free == 0.0].sum(axis=0),
+        support_reaction=held.sum(axis=0),
         kinetic_energy=float(kinetic_energy(mass, state.velocity)),
         unbalanced_force=float(largest_on_free(total, el.free)[0]),
     )

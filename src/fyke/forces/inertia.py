@@ -141,6 +141,16 @@ def _add_masses(slot, own, others, around, g):
 
 
 @njit(**OPTIONS)
+def inertia_forces(mass, a, out):
+    """M a of every knot into out (n, 3) N; mass: (n, 6) kg as mass_matrices gives it, a: (n, 3) m/s2."""
+    for i in range(a.shape[0]):
+        m, (p, q, r) = mass[i], a[i]
+        out[i, 0] = m[0] * p + m[3] * q + m[4] * r
+        out[i, 1] = m[3] * p + m[1] * q + m[5] * r
+        out[i, 2] = m[4] * p + m[5] * q + m[2] * r
+
+
+@njit(**OPTIONS)
 def kinetic_energy(mass, v):
     """Half of sum v.M v (J); mass: (n, 6) kg as mass_matrices gives it."""
     total = 0.0

@@ -11,6 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..system.system import System
+from .bed import OnBed
+from .bending import Bending
 
 Array = NDArray[np.float64]
 Places = NDArray[np.int64]
@@ -44,11 +46,23 @@ class Part(Protocol):
 
 def parts_of(system: System) -> tuple[Part, ...]:
     """Return what acts on the knots of a system besides bars, knots and screens."""
-    return ()
+    bending = Bending.of(system.net)
+    return (
+        *(() if system.bed is None else (OnBed(system, system.bed),)),
+        *(() if bending is None else (bending,)),
+    )
 
 
 def only_implicit(system: System) -> str:
     """Say what of a system only statics and implicit methods can do, "" where there is nothing."""
     if system.coefficients.screens is not None:
         return "screens need"
+    if system.motion is not None:
+        return "knots that are moved need"
+    if system.bed is not None:
+        return "a sea bed needs"
+    if system.elements.two_way.any():
+        return "tubes need"
+    if Bending.of(system.net) is not None:
+        return "ropes that resist bending need"
     return ""

@@ -1,9 +1,11 @@
 """How much of a net is under water where it reaches the surface, and what a change of that does to the load.
 
-A bar is round and a ramp: the part of its cross-section that is wet goes straight from 0 to 1 while its axis sinks from
-one radius r above the surface to one below it, and the bar's part is the mean of that along its length; with depths
-a and b of its ends and the integral I of the ramp,
-    beta = (I(b) - I(a)) / (b - a).
+A bar is round: the part of its cross-section that is wet, its axis at a depth s r with r its radius, is a segment of a
+circle, and the bar's part is the mean of that along its length; with depths a and b of its ends and the integral I,
+    A(s) = 1/2 + (s sqrt(1 - s^2) + asin s) / pi,          so that a half-wet bar lifts rho g 2 r more a metre of depth,
+    I(s) = (1 + s)/2 + ((1 - s^2)^(1/2) - (1 - s^2)^(3/2)/3 + s asin s - pi/2) / pi,
+    beta = r (I(b/r) - I(a/r)) / (b - a).
+A is that of a level bar; in a steep one the segments are parts of ellipses of the same height, which is left out.
 A knot, or what hangs there, is a sphere, with the volume of a cap; a face of netting is the mean of its two diagonals
 as if they were twines. Drag, added mass and buoyancy are multiplied by the part, so that with F the load that the
 whole bar or face would have, dF/dz = F dbeta/dz by the heights of its corners.
@@ -18,42 +20,52 @@ from .compiled import OPTIONS
 from .drag import bar_water_force
 from .total import TINY_LENGTH
 
-# Ends of a bar that differ in depth by less than this part of its radius lie level.
-LEVEL = 1e-6
+# Ends of a bar that differ in depth by less than this part of its radius lie level: differences of I lose as many
+# digits of the part, and twice as many of its slopes, and the middle alone stands for the mean to the square of it.
+LEVEL = 1e-5
 # Least wet part that the load is divided by.
 TINY_PART = 1e-100
 
 
 @njit(**OPTIONS)
-def _ramp(depth, radius):
-    """Part of a cross-section that is wet."""
-    return min(max(0.5 * (depth + radius) / radius, 0.0), 1.0)
+def _segment(s):
+    """Part A of a circle that is under water, its middle s radii deep."""
+    if s >= 1.0:
+        return 1.0
+    return 0.5 + (s * np.sqrt((1.0 - s) * (1.0 + s)) + np.arcsin(s)) / np.pi if s > -1.0 else 0.0
 
 
 @njit(**OPTIONS)
-def _immersed(depth, radius):
-    """Integral over depth (m) of the part of a cross-section that is wet."""
-    if depth >= radius:
-        return depth
-    return (depth + radius) ** 2 / (4.0 * radius) if depth > -radius else 0.0
+def _immersed(s):
+    """Integral I of A over s, from where nothing is wet."""
+    if s >= 1.0:
+        return s
+    if s <= -1.0:
+        return 0.0
+    square = (1.0 - s) * (1.0 + s)
+    return 0.5 * (1.0 + s) + (np.sqrt(square) * (1.0 - square / 3.0) + s * np.arcsin(s)) / np.pi - 0.5
 
 
 @njit(**OPTIONS)
 def wet_bar(a, b, radius):
     """Wet part of a bar with its ends at depths a and b (m), and its slopes by both (1/m)."""
-    if abs(b - a) > LEVEL * radius:
-        part = (_immersed(b, radius) - _immersed(a, radius)) / (b - a)
-        return part, (part - _ramp(a, radius)) / (b - a), (_ramp(b, radius) - part) / (b - a)
-    part = _ramp(a, radius)
-    slope = 0.25 / radius if 0.0 < part < 1.0 else 0.0
-    return part, slope, slope
+    if (a >= radius and b >= radius) or (a <= -radius and b <= -radius):
+        return (1.0 if a > 0.0 else 0.0), 0.0, 0.0
+    s, t = a / radius, b / radius
+    if abs(t - s) > LEVEL:
+        part = (_immersed(t) - _immersed(s)) / (t - s)
+        return part, (part - _segment(s)) / (b - a), (_segment(t) - part) / (b - a)
+    middle = 0.5 * (s + t)
+    # Half of 2/(pi r) sqrt(1 - s^2) for each end.
+    slope = np.sqrt(max((1.0 - middle) * (1.0 + middle), 0.0)) / (np.pi * radius)
+    return _segment(middle), slope, slope
 
 
 @njit(**OPTIONS)
 def wet_knot(depth, radius):
     """Wet part of a sphere with its middle at a depth (m), and its slope by that (1/m)."""
     r = max(radius, TINY_LENGTH)
-    part = _ramp(depth, r)
+    part = min(max(0.5 * (depth + r) / r, 0.0), 1.0)
     # The volume of a spherical cap over that of the sphere.
     return part * part * (3.0 - 2.0 * part), 3.0 * part * (1.0 - part) / r
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 import viser
 from numpy.typing import ArrayLike, NDArray
 
+from ..report.carried import carried
 from ..report.colours import GREY, PALETTE, linear
 from ..report.parts import Bars, Knots, Outline, coloured_bars, parts_of
 from ..report.quantities import BarQuantity, quantities
@@ -20,6 +21,10 @@ Array = NDArray[np.float64]
 
 # Pixels of a bar and of a frame; a knot over a bar; distance of the eye over the diagonal of the net, the grip over it.
 BAR, FRAME, KNOT, EYE, GRIP = 4.0, 3.0, 0.12, 1.25, 0.12
+
+
+LEAST_TUBE = 0.004  # diameter over the diagonal of the net, below which a tube is drawn as wide as a rope
+Units = Literal["screen", "world"]
 
 
 def _bytes(colours: ArrayLike) -> NDArray[np.uint8]:
@@ -98,26 +103,35 @@ class Scene:
         colours = COLOURS[np.clip(255.0 * values / self.top, 0.0, 255.0).astype(np.int64)]
         colours[slack] = SLACK
         with self.client.atomic():
-            for number, part in enumerate(parts_of(result.net)):
+            for number, part in enumerate(parts_of(carried(result).net)):
                 name = f"{number} {part.name}"
                 if isinstance(part, Outline):
                     points = part.points.astype(np.float32)
                     self._line(name, np.stack([points[:-1], points[1:]], axis=1), part.colour, FRAME)
                 elif isinstance(part, Bars):
                     own = colours[part.bars] if part.colour is None else part.colour
-                    self._line(name, position[result.net.bars[part.bars]], own, BAR * part.width)
+                    ends = position[result.net.bars[part.bars]]
+                    tube = part.diameter if part.diameter > LEAST_TUBE * self._size else None
+                    self._line(name, ends, own, BAR * part.width, tube)
                 else:
                     self._mark(name, part, position)
 
     def _line(
-        self, name: str, points: NDArray[np.float32], colour: NDArray[np.uint8] | str, width: float
+        self,
+        name: str,
+        points: NDArray[np.float32],
+        colour: NDArray[np.uint8] | str,
+        width: float,
+        diameter: float | None = None,
     ) -> None:
+        """Draw lines (k, 2, 3) m, so many pixels wide or, where a diameter (m) is given, as thick as that."""
         colours = np.empty((len(points), 2, 3), dtype=np.uint8)
         colours[:] = _bytes(rgb(colour)) if isinstance(colour, str) else colour[:, None]
         handle = self._lines.get(name)
         if handle is None:
+            thickness, units = (width, "screen") if diameter is None else (diameter, "world")
             self._lines[name] = self.client.scene.add_line_segments(
-                f"/{name}", points, colours, thickness=width, thickness_units="screen"
+                f"/{name}", points, colours, thickness=thickness, thickness_units=cast(Units, units)
             )
         else:
             handle.points, handle.colors = points, colours

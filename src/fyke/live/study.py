@@ -26,6 +26,7 @@ from ..solve.result import Result
 from ..solve.static import solve_static
 from ..solve.stepper import Run
 from ..system.build import build_net, build_system
+from ..system.carriage import seen_from_the_carriage
 from ..system.system import State, System
 from ..water.current import at_full_strength
 from .knobs import Knob, knobs_of, turned
@@ -52,9 +53,12 @@ class Numbers:
 
 
 def _system_of(case: Case) -> System:
-    """Return the system of a case, its current at full strength: a shape that one looks at has no beginning."""
+    """Return the system of a case, its current at full strength: a shape that one looks at has no beginning.
+
+    A towed net is seen from the carriage. ValueError where held knots are towed apart.
+    """
     system = build_system(build_net(case), case)
-    return replace(system, current=at_full_strength(system.current))
+    return seen_from_the_carriage(replace(system, current=at_full_strength(system.current)))
 
 
 class Study:
@@ -71,7 +75,10 @@ class Study:
         self.knobs: tuple[Knob, ...] = knobs_of(self.case)
         self.values: dict[str, float] = {knob.key: knob.value for knob in self.knobs}
         self.pins: dict[int, Array] = {}
-        self._built: System = _system_of(self.case)
+        try:
+            self._built: System = _system_of(self.case)
+        except ValueError as error:
+            raise error if isinstance(error, CaseError) else RefusedError(str(error)) from None
         self.system: System = self._built
         self.run: Run | None = None
         self._linear: tuple[bytes, Factorizer] | None = None

@@ -25,12 +25,12 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 # Corners of a face as steps (i, j) on the lattice, in order round it. Whole diamonds go from the middle of the mesh;
-# halves lie at the sides i = 0, i = end, j = 0, j = end, and their side c-a is the one along the frame.
+# halves lack one of the four, in this order, and their side c-a is the one along the frame.
 _DIAMOND = ((-1, 0), (0, -1), (1, 0), (0, 1))
 _HALVES = (
     ((0, -1), (1, 0), (0, 1), (0, 1)),
-    ((0, 1), (-1, 0), (0, -1), (0, -1)),
     ((1, 0), (0, 1), (-1, 0), (-1, 0)),
+    ((0, 1), (-1, 0), (0, -1), (0, -1)),
     ((-1, 0), (0, -1), (1, 0), (1, 0)),
 )
 _SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))
@@ -105,11 +105,13 @@ def _faces_of_panel(net: Net, panel: Panel, which: int) -> Faces:
     third = np.array([1.0, 1.0, 1.0, 0.0]) / 3.0
     count = len(corners)
     twine = next(t for t in net.twines if t.name == panel.twine)
+    # Solidity is that of the real meshes, of which a face has many.
+    real = area / (panel.group[0] * panel.group[1])
     return Faces(
         corners=corners,
         share=np.where(triangle[:, None], third, np.full(4, 0.25)),
         area=area,
-        solidity=_solidity(panel, twine.diameter, area * _parts_of_a_mesh(panel, triangle)),
+        solidity=_solidity(panel, twine.diameter, real * _parts_of_a_mesh(panel, triangle)),
         diameter=np.full(count, twine.diameter),
         panel=np.full(count, which, dtype=np.int64),
         bars=_sides(panel, grid, places),
@@ -128,7 +130,7 @@ def _parts_of_a_mesh(panel: Panel, triangle: NDArray[np.bool_]) -> Array:
     kind = panel.kind
     if not isinstance(kind, Hexagon):
         return np.where(triangle, 2.0, 1.0)
-    ratios = hanging_ratios(kind, panel.meshes, panel.bar_length, panel.size)
+    ratios = hanging_ratios(kind, panel.real_meshes, panel.bar_length, panel.size)
     across, rise = kind.rise(ratios)
     whole, tip = kind.area(1.0, ratios), across * max(rise, 0.0)
     return np.where(triangle, whole / tip if tip > 0.0 else 0.0, 2.0)
@@ -137,7 +139,7 @@ def _parts_of_a_mesh(panel: Panel, triangle: NDArray[np.bool_]) -> Array:
 def _solidity(panel: Panel, diameter: float, area: Array) -> Array:
     """Solidity of meshes of these areas (p,) m2 hung like the panel, whose ratios E1, E2 differ with its width."""
     mesh = panel.kind
-    e1, e2 = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
+    e1, e2 = hanging_ratios(mesh, panel.real_meshes, panel.bar_length, panel.size)
     whole = mesh_area(mesh, panel.bar_length, (e1, e2))
     out = np.empty(len(area))
     # Meshes of one row are alike: few different areas.
@@ -163,25 +165,26 @@ def _around(index: Indices, at: Indices, steps: tuple[tuple[int, int], ...]) -> 
 
 def _square_corners(grid: Lattice) -> Indices:
     i, j = np.indices(grid.intervals).reshape(2, -1)
-    return _around(_places(grid), np.column_stack([i, j]), _SQUARE)
+    corners = _around(_places(grid), np.column_stack([i, j]), _SQUARE)
+    return corners[(corners >= 0).all(axis=1)]
 
 
 def _diamond_corners(grid: Lattice) -> Indices:
-    """Whole meshes about every lattice point without a knot, and halves about those on the frame, row by row."""
-    index = _places(grid)
-    middle = np.argwhere(index < 0)
-    sides = (
-        middle[:, 0] == 0,
-        middle[:, 0] == grid.intervals[0],
-        middle[:, 1] == 0,
-        middle[:, 1] == grid.intervals[1],
-    )
-    corners = np.empty((len(middle), 4), dtype=np.int64)
-    inside = ~np.any(sides, axis=0)
-    corners[inside] = _around(index, middle[inside], _DIAMOND)
-    for side, steps in zip(sides, _HALVES, strict=True):
-        corners[side] = _around(index, middle[side], steps)
-    return corners
+    """Whole meshes about every lattice point between four knots, and halves between three, row by row."""
+    i, j = np.indices((grid.intervals[0] + 1, grid.intervals[1] + 1)).reshape(2, -1)
+    middle = np.column_stack([i, j])[(i + j) % 2 == 1]
+    # With a rim of places without knots, every middle has four neighbours.
+    index = np.pad(_places(grid), 1, constant_values=-1)
+    around = _around(index, middle + 1, _DIAMOND)
+    missing = around < 0
+    corners = np.full((len(middle), 4), -1, dtype=np.int64)
+    whole = ~missing.any(axis=1)
+    corners[whole] = around[whole]
+    half = missing.sum(axis=1) == 1
+    for side, steps in enumerate(_HALVES):
+        here = half & missing[:, side]
+        corners[here] = _around(index, middle[here] + 1, steps)
+    return corners[corners[:, 0] >= 0]
 
 
 def _hexagon_corners(panel: Panel, grid: Lattice, hexagon: Hexagon) -> Indices:

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .lattice import Corner, Side
 from .net import Net
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 
-def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
+def joined(net: Net, stays: ArrayLike, goes: ArrayLike, shared: ArrayLike = 1.0) -> Net:
     """Return the net in which every knot of `goes` has become the knot of `stays` at the same place of the list.
 
-    stays, goes: (k,) knots of the net. Bars, panels, ropes and bodies of a knot that goes are those of the one that
-    stays, which keeps its place and takes the larger diameter; it is held when one of the two was. ValueError when the
-    lists differ in length or a knot goes to two places.
+    stays, goes: (k,) knots of the net; shared: (k,) or one for all, how many real knots become one with others in
+    each pair: of grouped netting as many as Panel.real_along says of the edge. Bars, panels, ropes and bodies of a
+    knot that goes are those of the one that stays, which keeps its place and takes the larger diameter; it is held
+    when one of the two was. ValueError when the lists differ in length or a knot goes to two places.
     """
     keep, leave = np.asarray(stays, dtype=np.int64), np.asarray(goes, dtype=np.int64)
     if len(keep) != len(leave):
@@ -37,6 +40,9 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
     fixed, thick = np.zeros(len(left), dtype=bool), np.zeros(len(left))
     np.logical_or.at(fixed, place, net.fixed)
     np.maximum.at(thick, place, net.knot_diameter)
+    many = np.zeros(len(left))
+    np.add.at(many, place, net.knot_multiple)
+    np.subtract.at(many, place[leave], np.broadcast_to(np.asarray(shared, dtype=float), leave.shape))
     load = np.zeros((len(left), 3))
     np.add.at(load, place, net.load)
     return replace(
@@ -48,8 +54,59 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike) -> Net:
         knot_diameter=thick,
         knot_density=net.knot_density[left],
         load=load,
+        knot_multiple=many,
         panels=tuple(replace(one, knots=place[one.knots]) for one in net.panels),
         ropes=tuple(replace(one, knots=place[one.knots]) for one in net.ropes),
+        bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),
+    )
+
+
+def with_shared_bars(net: Net) -> Net:
+    """Return the net in which panels that share two neighbouring knots share the bar between them as well.
+
+    The bar is that of the first such panel, all its segments; the others and the places within them go.
+    """
+    chains = [panel.bars for panel in net.panels]
+    ends = np.sort(np.concatenate([panel.knots[panel.lattice.bars] for panel in net.panels]), axis=1)
+    if len({chain.shape[1] for chain in chains}) > 1:
+        raise ValueError("panels whose bars are cut into different numbers of segments share no bars")
+    every = np.concatenate(chains)
+    _, first, which = np.unique(
+        ends[:, 0] * net.knot_count + ends[:, 1], return_index=True, return_inverse=True
+    )
+    own = every[first[which]]
+    turned = net.bars[own[:, 0], 0] != net.bars[every[:, 0], 0]
+    own[turned] = own[turned, ::-1]
+    gone = np.setdiff1d(every, own)
+    # Places within bars that go belong to nothing else.
+    ties = np.bincount(net.bars.ravel(), minlength=net.knot_count)
+    loose = np.bincount(net.bars[gone].ravel(), minlength=net.knot_count)
+    stays = (ties == 0) | (ties > loose)
+    place, number = np.cumsum(stays) - 1, np.cumsum(~np.isin(np.arange(net.bar_count), gone)) - 1
+    left = np.setdiff1d(np.arange(net.bar_count), gone)
+    # Of the real bars that two stand for along the seam, one is shared.
+    many = net.bar_multiple.copy()
+    alike = np.bincount(which)
+    many[every[first]] = (np.bincount(which, net.bar_multiple[every[:, 0]]) - (alike - 1))[:, None]
+    rows = np.split(number[own], np.cumsum([len(chain) for chain in chains])[:-1])
+    return replace(
+        net,
+        positions=net.positions[stays],
+        labels=tuple(label for label, stay in zip(net.labels, stays.tolist(), strict=True) if stay),
+        fixed=net.fixed[stays],
+        bars=place[net.bars[left]],
+        rest_length=net.rest_length[left],
+        twine_of_bar=net.twine_of_bar[left],
+        knot_diameter=net.knot_diameter[stays],
+        knot_density=net.knot_density[stays],
+        load=net.load[stays],
+        bar_multiple=many[left],
+        knot_multiple=net.knot_multiple[stays],
+        panels=tuple(
+            replace(one, knots=place[one.knots], bars=bars)
+            for one, bars in zip(net.panels, rows, strict=True)
+        ),
+        ropes=tuple(replace(one, knots=place[one.knots], bars=number[one.bars]) for one in net.ropes),
         bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),
     )
 
@@ -67,3 +124,46 @@ def seam(one: Indices, other: Indices, *, closed: bool = False) -> tuple[Indices
     else:
         place = np.floor(np.linspace(0.0, len(few) - 1.0, len(many)) + 0.5).astype(np.int64)
     return few[place], many
+
+
+def stitches(
+    net: Net, one: tuple[str, Side | Corner], other: tuple[str, Side | Corner]
+) -> tuple[Indices, Indices]:
+    """Pair the knots of two edges of panels, each the name of a panel and an edge of it, for a seam.
+
+    Knots are paired in the direction, and on edges that close round from the knot, in which the edges lie nearest to
+    each other. Returns the knots that stay, those of the first edge unless the second has fewer, and those that go.
+    ValueError when one edge closes round and the other does not.
+    """
+    panels = {panel.name: panel for panel in net.panels}
+    rounds = [panels[name].closed and side in ("top", "bottom") for name, side in (one, other)]
+    if rounds[0] != rounds[1]:
+        raise ValueError(f"{one[0]}.{one[1]} and {other[0]}.{other[1]}: one closes round, the other does not")
+    first, second = (_once(panels[name].edge(cast(Side, side))) for name, side in (one, other))
+    x = net.positions
+    tries = []
+    for way in (second, second[::-1]):
+        turned = way
+        if rounds[0]:
+            start = int(np.argmin(np.linalg.norm(x[way[:-1]] - x[first[0]], axis=1)))
+            turned = np.append(np.roll(way[:-1], -start), way[start])
+        pair = seam(first, turned, closed=rounds[0])
+        tries.append((float(np.sum((x[pair[0]] - x[pair[1]]) ** 2)), pair))
+    # Of two that lie as near, the edges as they run.
+    return tries[1][1] if tries[1][0] < (1.0 - 1e-9) * tries[0][0] else tries[0][1]
+
+
+def _once(knots: Indices) -> Indices:
+    """Knots along an edge, those that have become one only once; the last of a closed edge stays its first."""
+    return np.asarray(knots[np.concatenate([[True], np.diff(knots) != 0])])
+
+
+def sewn(net: Net, one: tuple[str, Side | Corner], other: tuple[str, Side | Corner]) -> Net:
+    """Return the net with two edges of panels, each the name of a panel and an edge of it, joined knot by knot."""
+    stays, goes = stitches(net, one, other)
+    apart = stays != goes
+    # Every real knot of the edge that goes becomes one with another.
+    panels, real = {panel.name: panel for panel in net.panels}, np.ones(net.knot_count)
+    for name, side in (one, other):
+        real[panels[name].edge(side)] = panels[name].real_along(side)
+    return joined(net, stays[apart], goes[apart], real[goes[apart]])

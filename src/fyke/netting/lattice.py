@@ -14,12 +14,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import Taper
 from .hexagon import Hexagon
 
 Array = NDArray[np.float64]
 MeshKind = Literal["diamond", "square"]
 Mesh = MeshKind | Hexagon
 Edge = Literal["edges", "top", "corners", "none"]
+Side = Literal["top", "bottom", "left", "right"]
+Corner = Literal["corner1", "corner2", "corner3", "corner4"]  # upright, of a box
 
 # Lattice intervals per mesh along an axis.
 INTERVALS = {"diamond": 2, "square": 1}
@@ -27,40 +30,55 @@ INTERVALS = {"diamond": 2, "square": 1}
 
 @dataclass(frozen=True)
 class Lattice:
-    """Knots (n, 2) as (i, j) and bars (m, 2) as knot indices; intervals: the largest i and j."""
+    """Knots (n, 2) as (i, j) and bars (m, 2) as knot indices; intervals: the largest i and j.
+
+    cut: knots along the left and the right side from below, where these are cut; None where they are straight.
+    """
 
     knots: NDArray[np.int64]
     bars: NDArray[np.int64]
     intervals: tuple[int, int]
+    cut: tuple[NDArray[np.int64], NDArray[np.int64]] | None = None
+
+    def edge(self, which: Side) -> NDArray[np.int64]:
+        """Return the knots along an edge, in order from left to right or from below."""
+        if self.cut is not None and which in ("left", "right"):
+            return self.cut[0 if which == "left" else 1]
+        along, end = {"bottom": (0, 0), "top": (0, 1), "left": (1, 0), "right": (1, 1)}[which]
+        there = np.flatnonzero(self.knots[:, 1 - along] == end * self.intervals[1 - along])
+        return np.asarray(there[np.argsort(self.knots[there, along], kind="stable")])
 
     def held(self, where: Edge, *, closed: bool = False) -> NDArray[np.bool_]:
         """Knots (n,) that are held: on all edges, on the top row, on the four corners, or none.
 
         closed: the width closes round, and there are no edges and corners at its ends.
         """
-        i, j = self.knots.T
-        at_side = ((i == 0) | (i == self.intervals[0])) & (not closed)
+        j = self.knots[:, 1]
+        at_side, corners = np.zeros(len(j), dtype=bool), np.zeros(len(j), dtype=bool)
         at_end = (j == 0) | (j == self.intervals[1])
-        corners = np.zeros(len(i), dtype=bool)
-        for side in (0, self.intervals[0]):
-            # Hexagons have no knot in some corners; the last one of the side stands for it.
-            there = np.flatnonzero(i == side)
-            corners[[there[np.argmin(j[there])], there[np.argmax(j[there])]]] = not closed
+        if not closed:
+            for side in (self.edge("left"), self.edge("right")):
+                at_side[side] = True
+                # Hexagons have no knot in some corners; the last one of the side stands for it.
+                corners[side[[0, -1]]] = True
         held: dict[Edge, NDArray[np.bool_]] = {
             "edges": at_side | at_end,
             "corners": corners,
             "top": j == self.intervals[1],
-            "none": np.zeros(len(i), dtype=bool),
+            "none": np.zeros(len(j), dtype=bool),
         }
         return held[where]
 
 
-def lattice(mesh: Mesh, meshes: tuple[int, int]) -> Lattice:
+def lattice(mesh: Mesh, meshes: tuple[int, int], taper: Taper | None = None) -> Lattice:
     """Return the lattice of a panel of so many meshes along the width and the height.
 
     An 8 x 8 diamond panel has 145 knots and 256 bars, an 8 x 8 square panel 81 and 144, one of hexagons 153 and 212.
+    taper: how its sides are cut; meshes are then those of the wide end. ValueError for cuts that do not fit.
     """
     if isinstance(mesh, Hexagon):
+        if taper is not None:
+            raise ValueError("hexagonal netting is not cut to shape")
         return Lattice(*mesh.grid(meshes))
     ni, nj = (INTERVALS[mesh] * count for count in meshes)
     i, j = (axis.ravel() for axis in np.meshgrid(np.arange(ni + 1), np.arange(nj + 1), indexing="ij"))
@@ -70,17 +88,25 @@ def lattice(mesh: Mesh, meshes: tuple[int, int]) -> Lattice:
         steps = ((1, 1), (1, -1))
     else:
         steps = ((1, 0), (0, 1))
+    if taper is not None:
+        first, last = taper.columns(mesh, (ni, nj))
+        there = (i >= first[j]) & (i <= last[j])
+        i, j = i[there], j[there]
     index = np.full((ni + 1, nj + 1), -1, dtype=np.int64)
     index[i, j] = np.arange(len(i))
     bars = []
     for di, dj in steps:
         inside = (i + di <= ni) & (j + dj >= 0) & (j + dj <= nj)
-        start = index[i[inside], j[inside]]
-        bars.append(np.column_stack([start, index[i[inside] + di, j[inside] + dj]]))
+        pairs = np.column_stack([index[i[inside], j[inside]], index[i[inside] + di, j[inside] + dj]])
+        bars.append(pairs[pairs[:, 1] >= 0])
     all_bars = np.concatenate(bars)
     # Bars in the order of their first knot, so that neighbours in space are neighbours in memory.
     order = np.lexsort((all_bars[:, 1], all_bars[:, 0]))
-    return Lattice(np.column_stack([i, j]), all_bars[order], (ni, nj))
+    sides = None
+    if taper is not None:
+        left, right = (index[path[:, 0], path[:, 1]] for path in taper.paths(mesh, (ni, nj)))
+        sides = (left, right)
+    return Lattice(np.column_stack([i, j]), all_bars[order], (ni, nj), sides)
 
 
 def places(

@@ -39,13 +39,21 @@ class PanelMeasures:
 
 @dataclass(frozen=True)
 class NetMeasures:
-    """Figures of a whole net: counts of knots, bars and fixed knots; mass in air (kg); volume (m3)."""
+    """Figures of a whole net: counts of knots, bars and fixed knots; mass in air (kg); volume (m3).
+
+    real_knots, real_bars: how many the grouped ones stand for; twine_length: m, of all real bars, unloaded; group: the
+    most real meshes that one of the net stands for along an axis.
+    """
 
     knots: int
     bars: int
     fixed: int
     mass: float
     volume: float
+    real_knots: int
+    real_bars: int
+    twine_length: float
+    group: float
 
 
 def mesh_area(mesh: Mesh, bar_length: float, ratios: tuple[float, float]) -> float:
@@ -100,16 +108,17 @@ def measure_panel(net: Net, panel: Panel) -> PanelMeasures:
     """Return the figures of one panel of a net, hung on its frame."""
     twine = next(t for t in net.twines if t.name == panel.twine)
     mesh = panel.kind
-    ratios = hanging_ratios(mesh, panel.meshes, panel.bar_length, panel.size)
+    ratios = hanging_ratios(mesh, panel.real_meshes, panel.bar_length, panel.size)
     density = float(np.mean(net.knot_density[panel.knots]))
-    knots = 2 if panel.mesh == "hexagonal" else 1
+    knots, own = 2 if panel.mesh == "hexagonal" else 1, np.unique(panel.bars)
+    left = panel.taper.area(panel.mesh, panel.lattice.intervals) if panel.taper else 1.0
     cell_mass = (2.0 * panel.bar_length + panel.long_bar) * twine.mass_per_length
     cell_mass += knots * density * np.pi * panel.knot_diameter**3 / 6.0
     return PanelMeasures(
         hanging_ratios=ratios,
-        outline_area=panel.size[0] * panel.size[1],
+        outline_area=panel.size[0] * panel.size[1] * left,
         solidity=solidity(mesh, panel.bar_length, ratios, twine.diameter, panel.knot_diameter),
-        twine_area=float(twine.diameter * np.sum(net.rest_length[np.unique(panel.bars)])),
+        twine_area=float(twine.diameter * net.bar_multiple[own] @ net.rest_length[own]),
         mass_per_area=cell_mass / mesh_area(mesh, panel.bar_length, ratios),
         mesh_length=2.0 * panel.bar_length + panel.long_bar,
         rtex=twine.mass_per_length * KILOGRAM_PER_METRE_IN_TEX,
@@ -120,12 +129,26 @@ def measure_net(net: Net) -> NetMeasures:
     """Return the figures of a whole net: bars are cylinders of fibre as long as unloaded, knots spheres."""
     area = np.array([t.fibre_area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.density for t in net.twines])[net.twine_of_bar]
-    bar_volume = area * net.rest_length
-    knot_volume = np.pi * net.knot_diameter**3 / 6.0
+    length = net.bar_multiple * net.rest_length
+    bar_volume = area * length
+    knot_volume = net.knot_multiple * np.pi * net.knot_diameter**3 / 6.0
     return NetMeasures(
         knots=net.knot_count,
         bars=net.bar_count,
         fixed=int(np.count_nonzero(net.fixed)),
         mass=float(density @ bar_volume + net.knot_density @ knot_volume + net.at_knots("mass").sum()),
         volume=float(np.sum(bar_volume) + np.sum(knot_volume) + net.at_knots("volume").sum()),
+        real_knots=round(float(net.knot_multiple.sum())),
+        real_bars=_real_bars(net),
+        twine_length=float(length.sum()),
+        group=max((max(panel.group) for panel in net.panels), default=1.0),
     )
+
+
+def _real_bars(net: Net) -> int:
+    """How many bars the real net has."""
+    real = np.ones(net.bar_count)
+    for panel in net.panels:
+        if panel.grouped_from:
+            real[panel.bars] = (net.bar_multiple * net.rest_length)[panel.bars] / panel.bar_length
+    return round(float(real.sum()))

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import End, Taper
 from .hexagon import Hexagon
-from .lattice import Lattice, Mesh, lattice, places
+from .lattice import Corner, Lattice, Mesh, Side, lattice, places
 from .twine import Twine
 
 Array = NDArray[np.float64]
-Side = Literal["top", "bottom", "left", "right"]
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,10 @@ class Panel:
     knot_diameter: m, 0 when knotless; twine: its name; closed: whether the width closes round. Of the knots and bars of
     netting.lattice: knots: (k,) knot of the net at each; bars: (b, s) bars of the net, the s segments of each. Of
     hexagons: long_bar: m, unloaded, bar_length being that of the slanted ones; turned: the long bars lie along the
-    width (T90).
+    width (T90). Of netting cut to shape: cuts: of the left and the right side, from the wide end on, and the narrow
+    end; meshes and size are those of the wide end. folds: lattice columns of the corners of a box, where its wall is
+    folded. Of grouped netting meshes, knots and bars are those that it is laid with, and grouped_from: the meshes of
+    the real netting, whose bar_length and knot_diameter these are; None where each mesh stands for itself.
     """
 
     name: str
@@ -41,6 +44,25 @@ class Panel:
     bars: NDArray[np.int64]
     long_bar: float = 0.0
     turned: bool = False
+    cuts: tuple[str, ...] = ()
+    folds: tuple[int, ...] = ()
+    grouped_from: tuple[int, int] | None = None
+
+    @property
+    def real_meshes(self) -> tuple[int, int]:
+        """Meshes of the real netting along width and height."""
+        return self.grouped_from or self.meshes
+
+    @property
+    def group(self) -> tuple[float, float]:
+        """How many real meshes one of the net stands for along width and height."""
+        real = self.real_meshes
+        return real[0] / self.meshes[0], real[1] / self.meshes[1]
+
+    @property
+    def taper(self) -> Taper | None:
+        """How its sides are cut, None where they are straight."""
+        return Taper(self.cuts[0], self.cuts[1], cast(End, self.cuts[2])) if self.cuts else None
 
     @property
     def kind(self) -> Mesh:
@@ -52,7 +74,7 @@ class Panel:
     @property
     def lattice(self) -> Lattice:
         """The lattice of the meshes."""
-        return lattice(self.kind, self.meshes)
+        return lattice(self.kind, self.meshes, self.taper)
 
     @property
     def flat(self) -> Array:
@@ -62,21 +84,42 @@ class Panel:
         at = places(grid, self.kind, self.meshes, self.bar_length, self.size)
         return np.asarray((at - 0.5 * intervals) * (np.array(self.size) / intervals))
 
-    def edge(self, which: Side) -> NDArray[np.int64]:
-        """Knots of the net along an edge, in order from left to right or from below."""
+    def real_place(self, i: int, j: int) -> Array:
+        """Where a knot (i, j) of the real netting lies on the netting laid flat, about its middle, (2,) m."""
+        intervals = np.array(self.lattice.intervals) * np.array(self.group)
+        return np.asarray((np.array([i, j]) / intervals - 0.5) * np.array(self.size))
+
+    def edge(self, which: Side | Corner) -> NDArray[np.int64]:
+        """Knots of the net along an edge, in order from left to right or from below; corners: of a box."""
         grid = self.lattice
-        along, end = {"bottom": (0, 0), "top": (0, 1), "left": (1, 0), "right": (1, 1)}[which]
-        there = np.flatnonzero(grid.knots[:, 1 - along] == end * grid.intervals[1 - along])
-        return self.knots[there[np.argsort(grid.knots[there, along], kind="stable")]]
+        if which in ("top", "bottom", "left", "right"):
+            return self.knots[grid.edge(which)]
+        number = int(which.removeprefix("corner")) - 1
+        if number >= len(self.folds):
+            raise ValueError(f"netting '{self.name}' has no {which}")
+        there = np.flatnonzero(grid.knots[:, 0] == self.folds[number])
+        return self.knots[there[np.argsort(grid.knots[there, 1], kind="stable")]]
+
+    def real_along(self, which: Side | Corner) -> Array:
+        """How many real knots of an edge each of its knots stands for, in the order of edge()."""
+        along = 0 if which in ("top", "bottom") else 1
+        many = np.full(len(self.edge(which)), self.group[along])
+        if not (self.closed and along == 0):
+            many[[0, -1]] = 0.5 * (self.group[along] + 1.0)
+        return many
 
 
 @dataclass(frozen=True)
 class Rope:
-    """A rope: its knots (k,) in order and its bars (k - 1,)."""
+    """Bars in a row: its knots (k,) in order, the last one the first where it closes, and its bars (k - 1,).
+
+    kind: "rope" along netting, "line" that runs free of it, such as a mooring line, "ring" and "collar" of tubes.
+    """
 
     name: str
     knots: NDArray[np.int64]
     bars: NDArray[np.int64]
+    kind: str = "rope"
 
 
 @dataclass(frozen=True)
@@ -95,15 +138,21 @@ class Bodies:
     diameter: float
 
 
+def _single() -> Array:
+    return np.empty(0)
+
+
 @dataclass(frozen=True)
 class Net:
     """n knots joined by m bars.
 
     positions: (n, 3) m, before anything acts; labels: n texts, row and column "i-j" on a panel; fixed: (n,) bool;
     bars: (m, 2) knot indices; rest_length: (m,) m, unloaded; twines: the twines in use; twine_of_bar: (m,) index
-    into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot
-    on top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
-    sinkers in it, each may be empty.
+    into twines; knot_diameter: (n,) m, 0 for none; knot_density: (n,) kg/m3; load: (n, 3) N, dead load per knot on
+    top of weight, buoyancy and water; panels, ropes, bodies: the panels of netting, the ropes, the floats and
+    sinkers in it, each may be empty; bar_multiple: (m,) how many real bars side by side a bar stands for,
+    knot_multiple: (n,) how many real knots a knot, see netting.multiples; what is missing at their ends is 1.
+    Diameters and twines are those of the real bar and knot.
     """
 
     positions: Array
@@ -119,6 +168,19 @@ class Net:
     panels: tuple[Panel, ...] = field(default=())
     ropes: tuple[Rope, ...] = field(default=())
     bodies: tuple[Bodies, ...] = field(default=())
+    bar_multiple: Array = field(default_factory=_single)
+    knot_multiple: Array = field(default_factory=_single)
+
+    def __post_init__(self) -> None:
+        """Fit multiples that are all 1, and fill up others; ValueError for more of these than bars or knots."""
+        for name, count in (("bar_multiple", self.bar_count), ("knot_multiple", self.knot_count)):
+            given = getattr(self, name)
+            if len(given) == count:
+                continue
+            if len(given) > count and np.any(given != 1.0):
+                raise ValueError(f"{name} has {len(given)} numbers for {count}")
+            fitted = np.concatenate([given[:count], np.ones(max(count - len(given), 0))])
+            object.__setattr__(self, name, fitted)
 
     @property
     def knot_count(self) -> int:
@@ -134,6 +196,11 @@ class Net:
     def bar_diameter(self) -> Array:
         """Twine diameter of every bar, (m,) m."""
         return np.array([t.diameter for t in self.twines])[self.twine_of_bar]
+
+    @property
+    def two_way(self) -> NDArray[np.bool_]:
+        """Whether a bar also pushes, as those of tubes do, (m,)."""
+        return np.array([t.compression for t in self.twines], dtype=bool)[self.twine_of_bar]
 
     def at_knots(self, what: Literal["mass", "volume", "drag_area"]) -> Array:
         """Return the mass (kg), volume (m3) or drag area (m2) of the bodies at every knot, (n,)."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import Taper
 from .lattice import Edge, Mesh
 from .net import Net
 from .sheet import Netting, sheet
@@ -36,25 +37,32 @@ def panel(
     knot_diameter: float = 0.0,
     knot_density: float | None = None,
     segments: int = 1,
+    group: int = 1,
     centre: tuple[float, float, float] = (0.0, 0.0, 0.0),
     normal: tuple[float, float, float] = (1.0, 0.0, 0.0),
+    taper: Taper | None = None,
     fixed: Edge = "edges",
     name: str = "",
 ) -> Net:
     """Lay a flat panel with evenly spaced knots on a frame.
 
     meshes and size: along width and height (size in m); bar_length: m, knot centre to knot centre, unloaded, of
-    hexagons the slanted bars;
-    knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out; segments: straight pieces of a
-    bar. Knots are labelled "i-j", with "name:" before it when a name is given.
+    hexagons the slanted bars; knot_diameter: m, 0 for knotless; knot_density: kg/m3, the twine's when left out;
+    segments: straight pieces of a bar; group: one mesh is laid for so many real ones along width and height; taper: how
+    its sides are cut, meshes and size being those of the wide end and centre that of the whole rectangle. Knots are
+    labelled "i-j", with "name:" before it when a name is given.
     """
+    shape = "panel"
+    if taper is not None:
+        shape = taper.shape(mesh if isinstance(mesh, str) else "hexagonal", meshes)
     axes, where = panel_axes(np.array(normal)), np.array(centre, dtype=float)
     return sheet(
-        Netting(twine, mesh, bar_length, knot_diameter, knot_density, segments),
+        Netting(twine, mesh, bar_length, knot_diameter, knot_density, segments, group),
         meshes,
         lambda steps, intervals: steps * (np.array(size) / intervals) @ axes + where,
-        shape="panel",
+        shape=shape,
         size=size,
+        taper=taper,
         fixed=fixed,
         name=name,
     )

@@ -1,11 +1,13 @@
-"""Netting round an axis: cylinder, cone, frustum, cage. Seams close: the last column of knots is the first."""
+"""Netting that closes: cylinder, cone, frustum, round cage and box. Its last column of knots is the first."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .joining import joined, seam
+from .cutting import Taper
+from .hexagon import Hexagon
+from .joining import joined, seam, sewn, with_shared_bars
 from .lattice import Edge
 from .net import Net
 from .sheet import Netting, sheet
@@ -96,4 +98,137 @@ def cage(
     )
     whole = together([wall, floor])
     above, below = whole.panels
-    return joined(whole, *seam(above.edge("bottom"), below.edge("top"), closed=True))
+    rims = seam(above.edge("bottom"), below.edge("top"), closed=True)
+    return joined(whole, *rims, above.real_along("bottom")[:-1])
+
+
+def bag(
+    netting: Netting,
+    meshes: tuple[int, int],
+    *,
+    panels: int,
+    cuts: str,
+    diameters: tuple[float, float],
+    height: float,
+    top: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "bag",
+) -> Net:
+    """Lay a tapered bag, a piece of a trawl: equal trapezoids side by side on a frustum, joined along their cut sides.
+
+    meshes: of one panel, along its wide end and along the height; panels: how many, two to four by custom; cuts: of
+    every side, from the wide end to the narrow one, see netting.cutting; diameters: m, of the lower and the upper rim,
+    the wider of which is the wide end; height: m; top: m, centre of the upper rim. Panels are called NAME 1, NAME 2 ...
+    in the order in which they go round. ValueError for fewer than two panels and for cuts that do not fit.
+    """
+    if panels < 2:
+        raise ValueError("a bag has two panels or more")
+    low, high = diameters
+    taper = Taper(cuts, cuts, "bottom" if low <= high else "top")
+    slant = float(np.hypot(0.5 * (high - low), height))
+    mesh = netting.mesh if isinstance(netting.mesh, str) else "hexagonal"
+
+    def piece(number: int) -> Net:
+        def surface(steps: Array, intervals: Array) -> Array:
+            at = steps + 0.5 * intervals
+            left, right = (
+                np.interp(at[:, 1], *_by_row(path))
+                for path in taper.paths(mesh, (round(intervals[0]), round(intervals[1])))
+            )
+            width = right - left
+            along = np.divide(at[:, 0] - left, width, out=np.full_like(width, 0.5), where=width > 0.0)
+            angle, up = 2.0 * np.pi / panels * (number + along), steps[:, 1] / intervals[1] + 0.5
+            radius = 0.5 * (low + (high - low) * up)
+            places = np.column_stack([radius * np.cos(angle), radius * np.sin(angle), height * (up - 1.0)])
+            return np.asarray(places + np.array(top))
+
+        return sheet(
+            netting,
+            meshes,
+            surface,
+            shape="trapezoid",
+            size=(np.pi * max(diameters) / panels, slant),
+            taper=taper,
+            fixed=fixed,
+            name=f"{name} {number + 1}",
+        )
+
+    net = together([piece(number) for number in range(panels)])
+    for number in range(panels):
+        net = sewn(net, (f"{name} {number + 1}", "right"), (f"{name} {(number + 1) % panels + 1}", "left"))
+    return net
+
+
+def _by_row(path: NDArray[np.int64]) -> tuple[Array, Array]:
+    """Rows (r,) along a cut side, and its mean column in each."""
+    rows, which = np.unique(path[:, 1], return_inverse=True)
+    return rows.astype(float), np.bincount(which, path[:, 0]) / np.bincount(which)
+
+
+def box(
+    netting: Netting,
+    meshes: tuple[int, int, int],
+    *,
+    size: tuple[float, float, float],
+    bottom: bool = True,
+    top: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    fixed: Edge = "top",
+    name: str = "box",
+) -> Net:
+    """Lay a cage with four upright walls and a flat bottom, its sides along x and y.
+
+    meshes: along x, along y and along the depth; size: m, likewise; bottom: whether it has one, of the meshes of its
+    sides; top: m, middle of the upper rim; fixed: which knots are held. The walls are one panel, NAME, that goes round
+    from the corner at +x -y by +x +y; its corners are corner1 to corner4 in this order. The bottom is NAME bottom, i
+    along x and j against y; along the seam it has the knots and the bars of the walls. ValueError for a bottom of
+    hexagons, whose edges do not match those of the walls, and for a group that does not divide the meshes of the sides.
+    """
+    if bottom and isinstance(netting.mesh, Hexagon):
+        raise ValueError("a bottom of hexagonal netting does not match its walls: leave it out")
+    nx, ny, nz = meshes
+    if nx % netting.group or ny % netting.group:
+        raise ValueError(
+            f"a group of {netting.group} does not divide the {nx} and {ny} meshes between corners"
+        )
+    lx, ly, lz = size
+    folds = np.cumsum([0, ny, nx, ny, nx])
+    corners = 0.5 * np.array([(lx, -ly), (lx, ly), (-lx, ly), (-lx, -ly), (lx, -ly)])
+
+    def walls(steps: Array, intervals: Array) -> Array:
+        across = (steps[:, 0] + 0.5 * intervals[0]) * (folds[-1] / intervals[0])
+        x, y = (np.interp(across, folds, corner) for corner in corners.T)
+        return np.asarray(np.column_stack([x, y, lz * steps[:, 1] / intervals[1]]) + where)
+
+    where = np.array(top) - [0.0, 0.0, 0.5 * lz]
+    made = sheet(
+        netting,
+        (2 * (nx + ny), nz),
+        walls,
+        shape="box",
+        size=(2.0 * (lx + ly), lz),
+        closed=True,
+        folds=tuple(folds[:-1].tolist()),
+        fixed=fixed,
+        name=name,
+    )
+    if not bottom:
+        return made
+
+    def floor(steps: Array, intervals: Array) -> Array:
+        x, y = (steps * np.array([lx, -ly]) / intervals).T
+        return np.asarray(np.column_stack([x, y, np.full(len(x), -0.5 * lz)]) + where)
+
+    below = sheet(
+        netting,
+        (nx, ny),
+        floor,
+        shape="panel",
+        size=(lx, ly),
+        fixed="none",
+        name=f"{name} bottom".strip(),
+    )
+    whole = together([made, below])
+    wall, flat = whole.panels
+    right, near, left, far = (flat.edge(side) for side in ("right", "bottom", "left", "top"))
+    round_it = np.concatenate([right[:0:-1], near[:0:-1], left[:-1], far[:-1]])
+    return with_shared_bars(joined(whole, wall.edge("bottom")[:-1], round_it, wall.real_along("bottom")[:-1]))

@@ -8,8 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .cutting import Taper
 from .hexagon import Hexagon
-from .lattice import Edge, Lattice, Mesh, lattice, places, rest_lengths
+from .lattice import Edge, Lattice, Mesh, MeshKind, lattice, places, rest_lengths
+from .multiples import bar_multiples, grouped_meshes, knot_multiples, real_indices
 from .net import Net, Panel
 from .twine import Twine
 
@@ -26,7 +28,7 @@ class Netting:
 
     mesh: kind; bar_length: m, knot centre to knot centre, unloaded, of hexagons the slanted bars; knot_diameter: m,
     0 for knotless; knot_density: kg/m3, the twine's when None; segments: straight pieces that a bar is cut into, so
-    that it can bow.
+    that it can bow; group: one mesh is laid for so many real ones along width and along height.
     """
 
     twine: Twine
@@ -35,6 +37,7 @@ class Netting:
     knot_diameter: float = 0.0
     knot_density: float | None = None
     segments: int = 1
+    group: int = 1
 
 
 def sheet(
@@ -46,28 +49,38 @@ def sheet(
     size: tuple[float, float],
     closed: bool = False,
     tip: bool = False,
+    taper: Taper | None = None,
+    folds: tuple[int, ...] = (),
     fixed: Edge = "edges",
     name: str = "",
 ) -> Net:
-    """Lay netting of so many meshes along width and height on a surface.
+    """Lay netting of so many meshes along width and height on a surface, grouped as the netting says.
 
     shape: its name; size: m, width and height when laid flat; closed: the width closes round, and the last column of
-    knots is the first; tip: the lowest row is one knot; fixed: which knots are held. Knots are labelled "i-j", with
-    "name:" before it when there is a name; those within a bar of several segments by the bar's ends and their number,
-    "0-0>1-1.1". ValueError for hexagons that close round with their long bars along the width, or run to a tip.
+    knots is the first; tip: the lowest row is one knot; taper: how its sides are cut, meshes and size being those of
+    the wide end; folds: meshes from the left at which it is folded; fixed: which knots are held. Knots are labelled
+    "i-j", with "name:" before it when there is a name; those within a bar of several segments by the bar's ends and
+    their number, "0-0>1-1.1"; those of grouped netting by the real knots at their places. ValueError for hexagons that
+    close round with their long bars along the width, or run to a tip, for netting both cut and closed, and for netting
+    that cannot be grouped.
     """
+    few = _fewer(netting, meshes, closed)
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
     if hexagon and (tip or (closed and hexagon.turned)):
         raise ValueError(
             "hexagonal netting closes round with its long bars along the height (T0), and has no tip"
         )
-    grid = lattice(netting.mesh, meshes)
+    if taper is not None and (closed or tip):
+        raise ValueError("netting whose sides are cut does not close round by itself: join its sides")
+    if taper is not None and netting.group > 1:
+        raise ValueError("netting cut to shape is not grouped: its cuts go mesh by mesh")
+    grid = lattice(netting.mesh, few.meshes, taper)
     intervals = np.array(grid.intervals, dtype=float)
-    at = places(grid, netting.mesh, meshes, netting.bar_length, size)
+    at = places(grid, netting.mesh, few.meshes, netting.bar_length, size)
     own, knots = _own_knots(grid, closed, tip)
     ends, bars = _own_bars(grid, knots, closed)
     prefix = f"{name}:" if name else ""
-    labels = [f"{prefix}{i}-{j}" for i, j in grid.knots[own].tolist()]
+    labels = [f"{prefix}{i}-{j}" for i, j in few.labels(grid.knots[own]).tolist()]
     positions, held = (
         surface(at[own] - 0.5 * intervals, intervals),
         grid.held(fixed, closed=closed)[own],
@@ -87,7 +100,7 @@ def sheet(
         name=name,
         shape=shape,
         mesh="hexagonal" if isinstance(netting.mesh, Hexagon) else netting.mesh,
-        meshes=meshes,
+        meshes=few.meshes,
         size=size,
         bar_length=netting.bar_length,
         knot_diameter=netting.knot_diameter,
@@ -97,9 +110,14 @@ def sheet(
         bars=np.arange(m).reshape(-1, s)[bars],
         long_bar=hexagon.long_bar * netting.bar_length if hexagon else 0.0,
         turned=hexagon.turned if hexagon else False,
+        cuts=(taper.left, taper.right, taper.narrow) if taper else (),
+        folds=tuple(round(grid.intervals[0] * fold / meshes[0]) for fold in folds),
+        grouped_from=None if few.meshes == meshes else meshes,
     )
-    rest_length = np.empty(len(ends))
-    rest_length[bars] = rest_lengths(grid, netting.mesh, netting.bar_length) / s
+    side_by_side, longer, many = few.multiples(grid, size, closed=closed, tip=tip)
+    rest_length, bar_multiple = np.empty(len(ends)), np.empty(len(ends))
+    rest_length[bars] = longer * rest_lengths(grid, netting.mesh, netting.bar_length) / s
+    bar_multiple[bars] = side_by_side
     return Net(
         positions=np.concatenate([positions, between.reshape(-1, 3)]),
         labels=tuple(labels),
@@ -114,7 +132,47 @@ def sheet(
         ),
         load=np.zeros((n + inner_count, 3)),
         panels=(where,),
+        bar_multiple=np.repeat(bar_multiple, s),
+        knot_multiple=np.concatenate([many[own], np.ones(inner_count)]),
     )
+
+
+@dataclass(frozen=True)
+class _Fewer:
+    """The meshes that netting is laid with; many: real ones to one of them along width and height."""
+
+    mesh: Mesh
+    meshes: tuple[int, int]
+    many: tuple[float, float]
+
+    @property
+    def kind(self) -> MeshKind:
+        """The kind of mesh, where it can be grouped."""
+        return "square" if self.mesh == "square" else "diamond"
+
+    def labels(self, knots: Indices) -> Indices:
+        """Row and column (k, 2) that knots (k, 2) of the lattice are called by."""
+        return knots if self.many == (1.0, 1.0) else real_indices(knots, self.kind, self.many)
+
+    def multiples(
+        self, grid: Lattice, size: tuple[float, float], *, closed: bool, tip: bool
+    ) -> tuple[Array, Array, Array]:
+        """Real bars side by side and times as long (b,), real knots (k,)."""
+        if self.many == (1.0, 1.0):
+            return np.ones(len(grid.bars)), np.ones(len(grid.bars)), np.ones(len(grid.knots))
+        bars = bar_multiples(grid, self.kind, self.many, size, closed=closed)
+        return *bars, knot_multiples(grid, self.many, closed=closed, tip=tip)
+
+
+def _fewer(netting: Netting, meshes: tuple[int, int], closed: bool) -> _Fewer:
+    if netting.group > 1 and isinstance(netting.mesh, Hexagon):
+        raise ValueError("hexagonal netting is not grouped: its zigzag edges have no larger likeness")
+    if netting.group > 1 and netting.segments > 1:
+        raise ValueError(
+            "bars in segments are not grouped: a bundle n times as long would bow n times as far"
+        )
+    few = grouped_meshes(meshes, netting.group, closed=closed)
+    return _Fewer(netting.mesh, few, (meshes[0] / few[0], meshes[1] / few[1]))
 
 
 def _own_knots(grid: Lattice, closed: bool, tip: bool) -> tuple[Indices, Indices]:

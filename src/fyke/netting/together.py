@@ -47,4 +47,6 @@ def together(parts: Sequence[Net]) -> Net:
         bodies=tuple(
             replace(one, knots=one.knots + k) for p, k in zip(parts, knots, strict=False) for one in p.bodies
         ),
+        bar_multiple=np.concatenate([p.bar_multiple for p in parts]),
+        knot_multiple=np.concatenate([p.knot_multiple for p in parts]),
     )

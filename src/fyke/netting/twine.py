@@ -73,7 +73,10 @@ class Twine:
     damping (s), tension = T(strain) + damping_time dT/dt, zero by default and never letting a bar push; loss_factor:
     tan delta, which adds to the retardation time of each bar as much as makes this loss at the bar's ringing, see
     system.build.ringing; linear_density: mass per length (kg/m), Rtex in SI, where the twine is known to be porous;
-    None: fibre all through the cross-section; breaking_strength: N, None where it is not known.
+    None: fibre all through the cross-section; breaking_strength: N, None where it is not known; compression: whether
+    its bars also push, by the same law, as those of a tube do; bending_stiffness: EI, N m2, against bending from bar to
+    bar along a rope of it; wall: m, thickness of that of a tube, 0 for a twine; yield_stress: Pa, of the wall, None
+    where not known.
     """
 
     name: str
@@ -85,6 +88,10 @@ class Twine:
     loss_factor: float = 0.0
     linear_density: float | None = None
     breaking_strength: float | None = None
+    compression: bool = False
+    bending_stiffness: float = 0.0
+    wall: float = 0.0
+    yield_stress: float | None = None
 
     @property
     def area(self) -> float:

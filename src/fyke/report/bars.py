@@ -48,6 +48,12 @@ def line_width(bars: int) -> float:
     return float(np.clip(1.4 * np.sqrt(300.0 / max(bars, 1)), 0.25, 1.4))
 
 
+def thickness(ax: Axes, part: Bars, bars: int) -> float:
+    """Return the width (points) of the lines of a part on a net of so many bars, of a tube at least its own."""
+    inch = float(np.ptp(ax.get_xlim()) / size_of(ax)[0])
+    return max(part.width * line_width(bars), 72.0 * part.diameter / inch)
+
+
 def slack_name(tension: Array) -> str:
     """Name the slack among tensions (m,) with their number, as the legend has it."""
     return f"slack bar ({np.count_nonzero(tension <= 0.0)} of {len(tension)})"

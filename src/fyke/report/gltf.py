@@ -20,6 +20,7 @@ from ..results.encoding import case_title
 from ..results.whole import replacing
 from ..solve.result import Result
 from ..version import __version__
+from .carried import carried
 from .colours import Colouring, linear
 from .parts import Bars, Knots, Outline, parts_of
 from .solids import Solid, balls, threads, tubes
@@ -59,7 +60,7 @@ def _solids(result: Result, index: int, colouring: Colouring) -> Iterator[tuple[
     """Yield every part of the net and the balls of its knots, with names."""
     net, position = result.net, result.position[index]
     thickest = float(np.max(net.bar_diameter, initial=0.0)) or 1e-3
-    for part in parts_of(net):
+    for part in parts_of(carried(result, index).net):
         if isinstance(part, Outline):
             ends = part.points[:-1], part.points[1:]
             radius = np.full(len(ends[0]), 0.5 * part.width * thickest)

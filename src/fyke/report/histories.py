@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..results.volume import volume_history
 from ..solve.result import Result
 from . import style
+from .carried import way
 from .ticks import STEPS
 
 Array = NDArray[np.float64]
@@ -84,7 +85,7 @@ def draw_energy(ax: Axes, time: Array, energy: Array) -> None:
 
 
 def centre_deflection(result: Result) -> Array:
-    """Distance (k,) m of the free knot nearest the middle of the net from its initial place.
+    """Distance (k,) m of the free knot nearest the middle of the net from its place as built among the held knots.
 
     The middle is the mean of the initial positions; a net without free knots shows that of a fixed one.
     """
@@ -93,7 +94,9 @@ def centre_deflection(result: Result) -> Array:
     if not net.fixed.all():
         away[net.fixed] = np.inf
     centre = int(np.argmin(away))
-    return np.asarray(np.linalg.norm(result.position[:, centre] - net.positions[centre], axis=1))
+    return np.asarray(
+        np.linalg.norm(result.position[:, centre] - net.positions[centre] - way(result), axis=1)
+    )
 
 
 def drag(result: Result, current: ArrayLike | None) -> Array:

@@ -28,8 +28,9 @@ from ..forces.frame import Frame
 from ..results.whole import replacing
 from ..solve.result import Result
 from . import style
+from .carried import parts_in_time
 from .colours import Colouring
-from .parts import Bars, Knots, Outline, parts_of
+from .parts import Bars, Knots, Outline
 from .space import box, view_of
 from .ticks import number
 
@@ -183,7 +184,7 @@ class Stage:
         # VTK warns of a screen that it does not find, and then does without.
         logger = _needed("vtkmodules.vtkCommonCore").vtkLogger
         logger.SetStderrVerbosity(logger.VERBOSITY_ERROR)
-        points = [part.points for part in parts_of(result.net) if isinstance(part, Outline)]
+        points = [part.points for part in parts_in_time(result) if isinstance(part, Outline)]
         corners = box(result.position.reshape(-1, 3), *points)
         self._view = view_of(corners)
         self._plotter = self._pv.Plotter(off_screen=True, window_size=list(reel.size))
@@ -191,7 +192,7 @@ class Stage:
         self.metres = self._aim(corners)
         self._moving: list[Any] = []
         self._coloured: list[tuple[Any, Bars]] = []
-        for part in parts_of(result.net):
+        for part in parts_in_time(result):
             self._add(part)
         self._over = self._overlay()
 
@@ -251,6 +252,7 @@ class Stage:
             mesh = self._pv.PolyData(np.array(net.positions), lines=_lines(net.bars[part.bars]))
             thick = float(np.max(net.bar_diameter[part.bars])) / self.metres
             width = part.width * float(np.clip(thick, THINNEST * scale, THICKEST * scale))
+            width = max(width, part.diameter / self.metres)
             options: dict[str, Any] = {"line_width": width, "lighting": False}
             if part.colour is None:
                 mesh.cell_data["colour"] = np.zeros((len(part.bars), 3), dtype=np.uint8)

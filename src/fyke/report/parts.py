@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.net import Net, Side
+from ..netting.lattice import Side
+from ..netting.net import Net, Rope
 from . import style
 
 Array = NDArray[np.float64]
@@ -23,7 +24,8 @@ Indices = NDArray[np.int64]
 class Bars:
     """Bars (k,) of the net, drawn between their knots; colour None: by the quantity that the picture shows.
 
-    width: over that of a bar of netting, where lines are not as thick as the twine; own: the name in the net.
+    width: over that of a bar of netting, where lines are not as thick as the twine; own: the name in the net;
+    diameter: m, of a tube, which is never drawn thinner; 0 for twine.
     """
 
     name: str
@@ -31,6 +33,7 @@ class Bars:
     colour: str | None = None
     width: float = 1.0
     own: str = ""
+    diameter: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -65,6 +68,9 @@ ROPE_WIDTH, BODY_SIZE = 1.7, 1.4  # over a bar of netting, over a fixed knot
 # Marker and colour of what hangs at knots.
 BODIES = {"float": ("circle", style.ORANGE), "sinker": ("diamond", style.BLACK)}
 
+# Colour of bars in a row, by their kind.
+ROWS = {"rope": style.VERMILION, "ring": style.PURPLE, "collar": style.ORANGE}
+
 Part = Bars | Knots | Outline
 Drawer = Callable[[Net], Iterator[Part]]
 _REGISTER: list[Drawer] = []
@@ -97,14 +103,20 @@ def frames(net: Net) -> Iterator[Part]:
 
 
 def coloured_bars(net: Net) -> Indices:
-    """Return the bars (k,) that a picture colours by its quantity: all but the ropes of a net that is more than ropes.
+    """Return the bars (k,) that a picture colours by its quantity: the netting; without any the ropes, else all.
 
-    A rope bears a multiple of what a bar of netting does, and would take the colours for itself.
+    A rope bears a multiple of what a bar of netting does, and would take the colours for itself, and so does a tube.
     """
-    own = np.ones(net.bar_count, dtype=bool)
+    netting, twine = np.ones(net.bar_count, dtype=bool), np.ones(net.bar_count, dtype=bool)
     for rope in net.ropes:
-        own[rope.bars] = False
-    return np.flatnonzero(own) if own.any() else np.arange(net.bar_count)
+        netting[rope.bars] = False
+        twine[rope.bars] = not _tubular(net, rope)
+    own = next((one for one in (netting, twine) if one.any()), np.ones(net.bar_count, dtype=bool))
+    return np.flatnonzero(own)
+
+
+def _tubular(net: Net, rope: Rope) -> bool:
+    return net.twines[int(net.twine_of_bar[rope.bars[0]])].wall > 0.0
 
 
 def tied_knots(net: Net) -> NDArray[np.bool_]:
@@ -127,10 +139,13 @@ def netting(net: Net) -> Iterator[Part]:
 
 @draws
 def ropes(net: Net) -> Iterator[Part]:
-    """Yield the ropes, each in one piece, unless the net is nothing else."""
+    """Yield the ropes, rings and collars that do not have the colour of the quantity, each in one piece."""
+    coloured = coloured_bars(net)
     for rope in net.ropes:
-        if len(coloured_bars(net)) < net.bar_count:
-            yield Bars("rope", rope.bars, style.VERMILION, ROPE_WIDTH, rope.name)
+        if not np.isin(rope.bars, coloured).all():
+            thick = float(net.bar_diameter[rope.bars[0]]) if _tubular(net, rope) else 0.0
+            colour = ROWS.get(rope.kind, style.VERMILION)
+            yield Bars(rope.kind, rope.bars, colour, ROPE_WIDTH, rope.name, thick)
 
 
 @draws

@@ -19,13 +19,13 @@ from .bars import (
     draw_knots,
     draw_tension,
     legend_rows,
-    line_width,
     name_marks,
     part_names,
     shown_tensions,
     slack_name,
     tension_bar,
     tension_scale,
+    thickness,
 )
 from .parts import Bars, Knots, parts_of
 from .plane import draw_plane, frame, plane_axes, size_of
@@ -129,7 +129,7 @@ def _draw_netting(ax: Axes, result: Result, plan: _Plan, scale: Normalize, *, na
     for part in parts_of(result.net):
         if isinstance(part, Bars) and part.colour is not None:
             ends = plan.between(result.net.bars[part.bars])
-            thick = part.width * line_width(len(plan.ends))
+            thick = thickness(ax, part, len(plan.ends))
             options = {"linewidths": thick, "zorder": 2.2, "gid": "ropes"}
             if len(ends):
                 draw_bars(ax, plan.points, ends, colors=part.colour, label=part.name, **options)
@@ -222,6 +222,8 @@ def _plan_of(net: Net, panel: Panel, *, title: bool) -> _Plan:
 def _laid_flat(net: Net, panel: Panel) -> Array:
     """Where the lattice knots lie on the netting laid flat (k, 2) m, every row as wide as it was built."""
     grid, points = panel.lattice, panel.flat
+    if panel.folds:
+        return points  # every other row cuts the corners of a box short, which is no narrower netting
     order = np.lexsort((grid.knots[:, 0], grid.knots[:, 1]))
     j, across = grid.knots[order, 1], points[order, 0]
     step = np.linalg.norm(np.diff(net.positions[panel.knots[order]], axis=0), axis=1)

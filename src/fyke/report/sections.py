@@ -11,10 +11,13 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from ..netting.faces import faces_of
+from ..netting.lattice import Side
 from ..netting.net import Net
 from ..solve.result import Result
 from . import style
-from .bars import legend_rows, name_marks
+from .bars import legend_rows, mark, name_marks, thickness
+from .carried import carried
+from .parts import Bars, parts_of
 from .plane import frame, plane_axes
 from .shapes import draw_arrow
 from .ticks import number
@@ -39,24 +42,26 @@ def sections(
     The cut stands upright through the middle of the netting as built, along the current (3,) m/s, else along the waves
     (3,), else along x. From above there are rows of knots, named by the height at which they were built.
     """
+    result = carried(result)
     net = result.net
     closed = [which for which, panel in enumerate(net.panels) if panel.closed]
     if not closed:
         return None
     flow, words = _flow(current, waves)
-    triangles = _triangles(net, closed)
+    triangles = _triangles(net, closed + _floors(net, closed))
     middle = 0.5 * np.sum([f(net.positions[np.unique(triangles)], axis=0) for f in (np.min, np.max)], axis=0)
     shapes = net.positions, result.position[-1]
     cuts = [_cut(x, triangles, middle, flow) for x in shapes]
     rows = _rows(net, closed)
     rings = [[x[knots][:, :2] for x in shapes] for _, knots in rows]
     limits = [frame(*(cut.reshape(-1, 2) for cut in cuts)), frame(*(ring for pair in rings for ring in pair))]
-    figure, axes = _sheet(limits, _names(rows), arrow=bool(words))
+    figure, axes = _sheet(limits, [*_names(rows), *_tubes(net)], arrow=bool(words))
     _draw_cuts(axes[0], cuts)
+    _draw_tubes(axes, net, shapes[1], (middle, flow))
     for index, ((height, _), pair) in enumerate(zip(rows, rings, strict=True)):
         _draw_row(axes[1], pair, COLOURS[index % ROWS], _name(height))
     if words:
-        top = figure.get_figheight() - LEGEND * _legend_rows(rows) - 0.5 * ARROW
+        top = figure.get_figheight() - LEGEND * _legend_rows(rows, net) - 0.5 * ARROW
         for ax, step, said in zip(axes, ([1.0, 0.0], flow[:2]), ("", words), strict=True):
             left = ax.get_position().x0 * figure.get_figwidth() + 0.2
             draw_arrow(figure, np.array(step), said, (left, top))
@@ -72,6 +77,17 @@ def _flow(current: ArrayLike | None, waves: ArrayLike | None) -> tuple[Array, st
         if level.any():
             return level / np.linalg.norm(level), words
     return np.array([1.0, 0.0, 0.0]), ""
+
+
+def _floors(net: Net, closed: list[int]) -> list[int]:
+    """Flat panels whose whole edge lies on closed netting: the bottoms of boxes."""
+    walls = np.unique(np.concatenate([net.panels[which].knots for which in closed]))
+    sides: tuple[Side, ...] = ("top", "bottom", "left", "right")
+    return [
+        which
+        for which, panel in enumerate(net.panels)
+        if not panel.closed and all(np.isin(panel.edge(side), walls).all() for side in sides)
+    ]
 
 
 def _triangles(net: Net, panels: list[int]) -> Indices:
@@ -120,8 +136,37 @@ def _names(rows: list[tuple[float, Indices]]) -> list[str]:
     return [AS_BUILT, "last frame", *(_name(height) for height, _ in rows)]
 
 
-def _legend_rows(rows: list[tuple[float, Indices]]) -> int:
-    return legend_rows(_names(rows), style.DOUBLE_COLUMN)
+def _legend_rows(rows: list[tuple[float, Indices]], net: Net) -> int:
+    return legend_rows([*_names(rows), *_tubes(net)], style.DOUBLE_COLUMN)
+
+
+def _tubes(net: Net) -> dict[str, list[Bars]]:
+    """Parts that are tubes, by what they are."""
+    found: dict[str, list[Bars]] = {}
+    for part in parts_of(net):
+        if isinstance(part, Bars) and part.diameter:
+            found.setdefault(part.name, []).append(part)
+    return found
+
+
+def _draw_tubes(axes: list[Axes], net: Net, x: Array, plane: tuple[Array, Array]) -> None:
+    """Draw tubes in their thickness: cut across by the upright plane through a point along a direction; from above."""
+    middle, along = plane
+    across = np.array([-along[1], along[0], 0.0])
+    for name, parts in _tubes(net).items():
+        for part in parts:
+            ends = x[net.bars[part.bars]]
+            off = (ends - middle) @ across
+            there = (off[:, 0] >= 0.0) != (off[:, 1] >= 0.0)
+            share = (off[there, 0] / (off[there, 0] - off[there, 1]))[:, None]
+            met = ends[there, 0] + share * (ends[there, 1] - ends[there, 0])
+            places = np.column_stack([(met - middle) @ along, met[:, 2]])
+            look: dict[str, Any] = {"color": part.colour, "clip_on": False}
+            size = thickness(axes[0], part, net.bar_count)
+            mark(axes[0], places, marker="o", markersize=size, label=name, color=part.colour)
+            wide = thickness(axes[1], part, net.bar_count)
+            row = LineCollection(list(ends[:, :, :2]), linewidths=wide, zorder=1.4, **look)
+            axes[1].add_collection(row, autolim=False)
 
 
 def _sheet(limits: list[Array], names: list[str], *, arrow: bool) -> tuple[Figure, list[Axes]]:

@@ -26,7 +26,9 @@ from .bars import (
     slack_name,
     tension_bar,
     tension_scale,
+    thickness,
 )
+from .carried import brought_back, carried
 from .parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
 from .plane import size_of
 from .space import View, box, draw_space, far_to_near, seen_extent
@@ -48,6 +50,7 @@ def initial_position(
 
     current: (3,) m/s, and waves: (3,) direction in which they go, each shown as an arrow when given.
     """
+    result = brought_back(result)
     net = result.net
     speed = 0.0 if current is None else float(np.linalg.norm(current))
     flows = (
@@ -66,6 +69,8 @@ def initial_position(
     def plain(points: Array, part: Bars) -> None:
         options = {"gid": "bars"} if part.colour is None else {"gid": "ropes", "label": part.name}
         colour, thick = part.colour or style.BLUE, 0.6 * part.width * width
+        if part.diameter:
+            thick = thickness(ax, part, net.bar_count)
         draw_bars(ax, points, net.bars[part.bars], colors=colour, linewidths=thick, **options)
 
     seen = view.see(net.positions)
@@ -88,7 +93,7 @@ def equilibrium_shape(result: Result) -> Figure:
     shown = result.tension[-1][coloured_bars(result.net)]
     below = NUMBERS + (COLOUR_BAR if np.any(shown > 0.0) else 0.0)
     legend = _legend(result.net, slack_name(shown), style.SINGLE_COLUMN)
-    figure, ax = _page(result, above=legend, below=below)
+    figure, ax = _page(carried(result), above=legend, below=below)
     draw_shape(ax, result)
     return figure
 
@@ -96,6 +101,7 @@ def equilibrium_shape(result: Result) -> Figure:
 @style.styled
 def draw_shape(ax: Axes, result: Result) -> None:
     """Draw the last frame in space, with axes, colour bar and names, into the rectangle of plain axes as it is now."""
+    result = carried(result)
     net, tension = result.net, result.tension[-1]
     shown = tension[coloured_bars(net)]
     taut, scale = bool(np.any(shown > 0.0)), tension_scale(shown)
@@ -107,7 +113,7 @@ def draw_shape(ax: Axes, result: Result) -> None:
         if part.colour is None:
             draw_tension(ax, points, net.bars[bars], tension[bars], scale, named=slack_name(shown))
         else:
-            options = {"linewidths": part.width * line_width(net.bar_count), "zorder": 2.2, "gid": "ropes"}
+            options = {"linewidths": thickness(ax, part, net.bar_count), "zorder": 2.2, "gid": "ropes"}
             draw_bars(ax, points, net.bars[bars], colors=part.colour, label=part.name, **options)
 
     seen = view.see(result.position[-1])

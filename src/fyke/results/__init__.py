@@ -5,10 +5,12 @@ from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkp
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .layout import frame_bytes
+from .loads import LoadRow, PartLoad, load_figures, load_row, worst_of, write_loads
 from .parts import PartFigures, by_part, part_figures, write_parts
 from .probes import Probes, probe, probes_of, write_probes
 from .ranges import OutOfRange, moments, out_of_range
 from .recorder import Recorder
+from .rings import RingFigures, ring_figures, rings_told, write_rings
 from .store import ResultError, load, save
 from .tables import write_summary, write_tables
 from .water import flow_direction, mean_current, water_figures
@@ -18,12 +20,15 @@ __all__ = [
     "CheckpointError",
     "Comparison",
     "EnergyBudget",
+    "LoadRow",
     "MeasurementError",
     "OutOfRange",
     "PartFigures",
+    "PartLoad",
     "Probes",
     "Recorder",
     "ResultError",
+    "RingFigures",
     "audit",
     "by_part",
     "compare",
@@ -32,18 +37,25 @@ __all__ = [
     "frames_of",
     "load",
     "load_checkpoint",
+    "load_figures",
+    "load_row",
     "mean_current",
     "moments",
     "out_of_range",
     "part_figures",
     "probe",
     "probes_of",
+    "ring_figures",
+    "rings_told",
     "save",
     "save_checkpoint",
     "summary",
     "water_figures",
+    "worst_of",
+    "write_loads",
     "write_parts",
     "write_probes",
+    "write_rings",
     "write_summary",
     "write_tables",
 ]

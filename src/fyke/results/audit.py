@@ -3,10 +3,11 @@
 Forces, at the last frame. What acts on a knot is water + weight less buoyancy + dead load + parts + tension of its
 bars, and the tensions cancel in the sum over all knots, so
     sum of loads - support reaction = sum of (M a) over the free knots,
-which is zero at rest and the inertia force of the net in motion.
+which is zero at rest and the inertia force of the net in motion, of held knots too where they are moved.
 
 Energy, between the first and the last frame. M(x) a = F times v, summed over the knots and integrated, is
-    change of (kinetic + elastic + potential) = current - drag - twine + added mass + inertia + parts - remainder  (J)
+    change of (kinetic + elastic + potential) = current - drag - twine + added mass + inertia + parts + supports
+                                                     - remainder  (J)
     kinetic     1/2 sum v.M v, added mass included
     elastic     sum over bars of l0 times the integral of T over strain, up to the strain of the bar
     potential   -sum (weight less buoyancy + dead load).x
@@ -17,7 +18,7 @@ Energy, between the first and the last frame. M(x) a = F times v, summed over th
     inertia     integral of sum I.v, I the force of accelerating water on a knot and the buoyancy that it loses above
                 the surface
     parts       integral of sum P.v, P the force of what acts besides water, bars and knots (forces.part)
-Held knots do not move, so supports do no work.
+    supports    integral of sum S.v over held knots that are moved, S = M a - F the force of the support on a knot
 """
 
 from __future__ import annotations
@@ -28,9 +29,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import bar_geometry, elastic
+from ..forces.bars import bar_geometry, borne, elastic
 from ..forces.frame import Frame
-from ..forces.inertia import mass_matrices
+from ..forces.inertia import inertia_forces, mass_matrices
 from ..forces.surroundings import Surroundings
 from ..forces.total import TINY_LENGTH
 from ..solve.result import Result
@@ -45,8 +46,8 @@ class EnergyBudget:
     """Energy of a net between the first and the last frame, all in J; formulas at the head of the module.
 
     kinetic, elastic, potential: changes; current_work, drag_dissipation, twine_dissipation, added_mass_work,
-    inertia_work, parts_work: integrals of the power in the frames by the trapezoidal rule; remainder: what went in and
-    is in none of these, positive where energy got lost.
+    inertia_work, parts_work, support_work: integrals of the power in the frames by the trapezoidal rule; remainder:
+    what went in and is in none of these, positive where energy got lost.
 
     The integrals see the motion at the output times only. The remainder is therefore the numerical damping and the
     error of the method together with the error of sampling, which falls with the square of the interval between
@@ -62,6 +63,7 @@ class EnergyBudget:
     added_mass_work: float
     inertia_work: float
     parts_work: float
+    support_work: float
     remainder: float
 
     @property
@@ -145,7 +147,7 @@ def forces_on_knots(system: System, frame: Frame) -> Array:
     """Water, weight, dead load, parts and tensions on every knot, (n, 3) N; what a held knot hands to its support."""
     el = system.elements
     t, _ = _directions(frame, el)
-    pull = frame.tension[:, None] * t
+    pull = (system.net.bar_multiple * frame.tension)[:, None] * t
     total = frame.water_force + el.weight + _of_parts(system, frame)
     np.add.at(total, el.knot_a, pull)
     np.subtract.at(total, el.knot_b, pull)
@@ -154,7 +156,8 @@ def forces_on_knots(system: System, frame: Frame) -> Array:
 
 def elastic_energy(el: Elements, length: Array) -> Array:
     """Elastic energy of every bar at a length (m,) m, (m,) J: the exact integral of its law, 0 where slack."""
-    strain = np.maximum(length / el.rest_length - 1.0, 0.0)
+    strain = length / el.rest_length - 1.0
+    strain = np.where(el.two_way, np.abs(strain), np.maximum(strain, 0.0))
     whole = _integral(el.law_rows[:-1], np.diff(el.law_rows[:, 0]))
     # Energy over l0 at the strain where a row begins; the first row of a law begins from nothing.
     start = np.zeros(len(el.law_rows))
@@ -191,18 +194,20 @@ def _viscous(el: Elements, length: Array, rate: Array) -> Array:
     """Part of the tension that the twine's damping makes, (m,) N, at a rate of elongation (m,) m/s."""
     f, slope = np.empty_like(length), np.empty_like(length)
     elastic(length - el.rest_length, el, f, slope)
-    damped = np.maximum(f + el.damping_time * slope * rate, 0.0)
-    return np.where(length > el.rest_length, damped - f, 0.0)
+    damped = borne(f + el.damping_time * slope * rate, el)
+    return np.where(el.two_way | (length > el.rest_length), damped - f, 0.0)
 
 
-def _elastic_length(el: Elements, frame: Frame) -> Array:
-    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's tension.
+def _elastic_length(el: Elements, frame: Frame, pull: Array) -> Array:
+    """Length (m,) m at which the elastic law alone makes the elastic part of a frame's pull (m,) N.
 
     An implicit method knows tensions better than the law does from its positions, which stretch stiff bars falsely.
     """
     t, length = _directions(frame, el)
     rate = np.einsum("eq,eq->e", frame.velocity[el.knot_b] - frame.velocity[el.knot_a], t)
-    tension = np.maximum(frame.tension - _viscous(el, length, rate), 0.0)
+    tension = borne(pull - _viscous(el, length, rate), el)
+    # A tube that pushes stores what it would pulled as hard.
+    tension = np.abs(tension)
     row = el.law_first.astype(np.int64)
     last = el.law_end.astype(np.int64) - 1
     while np.any(further := (row < last) & (tension >= el.law_rows[np.minimum(row + 1, last), 1])):
@@ -243,8 +248,8 @@ def _of_moving_water(system: System, frame: Frame) -> tuple[Array, Array]:
     return u, el.weight - system.elements.weight
 
 
-def _powers(system: System, frame: Frame) -> tuple[float, float, float, float, float, float]:
-    """Power (W) of current, drag, twine damping, turning added mass, fluid inertia and parts in one frame."""
+def _powers(system: System, frame: Frame) -> tuple[float, ...]:
+    """Power (W) of current, drag, twine, turning added mass, fluid inertia, parts and supports in one frame."""
     el, v = system.elements, frame.velocity
     u, inertia = _of_moving_water(system, frame)
     force = frame.water_force - inertia
@@ -262,16 +267,35 @@ def _powers(system: System, frame: Frame) -> tuple[float, float, float, float, f
         -float(np.sum(el.bar_added_mass * turning)),
         float(np.sum(inertia * v)),
         float(np.sum(_of_parts(system, frame) * v)),
+        _support_power(system, frame),
     )
+
+
+def _support_power(system: System, frame: Frame) -> float:
+    """Power (W) of the supports that are moved, in one frame."""
+    if system.motion is None:
+        return 0.0
+    around, held = Surroundings(system), ~system.elements.free.astype(bool)
+    el, _ = around.given(frame.position, frame.velocity, frame.time)
+    mass, inertia = np.empty((len(held), 6)), np.empty_like(frame.position)
+    mass_matrices(frame.position, el, mass)
+    inertia_forces(mass, system.motion.acceleration(frame.time), inertia)
+    push = inertia - forces_on_knots(system, frame)
+    return float(np.sum(push[held] * frame.velocity[held]))
 
 
 def _energy_budget(system: System, result: Result) -> EnergyBudget:
     el = system.elements
     first, last = result.frame(0), result.frame()
     powers = np.array([_powers(system, result.frame(k)) for k in range(len(result.time))])
-    current, drag, twine, turning, inertia, parts = np.trapezoid(powers, result.time, axis=0).tolist()
+    current, drag, twine, turning, inertia, parts, support = np.trapezoid(
+        powers, result.time, axis=0
+    ).tolist()
     kinetic = float(last.kinetic_energy - first.kinetic_energy)
-    stored = [elastic_energy(el, _elastic_length(el, frame)) for frame in (first, last)]
+    stored = [
+        elastic_energy(el, _elastic_length(el, frame, system.net.bar_multiple * frame.tension))
+        for frame in (first, last)
+    ]
     stretching = float(np.sum(stored[1] - stored[0]))
     potential = -float(np.sum(el.weight * (last.position - first.position)))
     return EnergyBudget(
@@ -284,5 +308,15 @@ def _energy_budget(system: System, result: Result) -> EnergyBudget:
         added_mass_work=turning,
         inertia_work=inertia,
         parts_work=parts,
-        remainder=current + turning + inertia + parts - drag - twine - kinetic - stretching - potential,
+        support_work=support,
+        remainder=current
+        + turning
+        + inertia
+        + parts
+        + support
+        - drag
+        - twine
+        - kinetic
+        - stretching
+        - potential,
     )

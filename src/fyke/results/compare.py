@@ -170,7 +170,7 @@ def _near(label: str, labels: tuple[str, ...]) -> list[str]:
 def _by_place(rows: list[_Row], net: Net, problems: list[Problem]) -> Iterator[tuple[int, _Row]]:
     from scipy.spatial import cKDTree
 
-    reach = float(np.min(net.rest_length, initial=np.inf)) / 2.0
+    reach = min([float(np.min(net.rest_length, initial=np.inf)), *(p.bar_length for p in net.panels)]) / 2.0
     distances, nearest = cKDTree(net.positions).query([row.numbers[:3] for row in rows])
     for row, knot, distance in zip(rows, nearest.tolist(), distances.tolist(), strict=True):
         if distance <= reach:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..netting.measures import measure_net
 from ..solve.result import Result
 from ..version import __version__
 from .audit import Audit
@@ -52,11 +53,14 @@ def summary(
 
     support_reaction: force of the net on its supports, (3,). max_tension_bar: number of the bar with the
     largest tension, counted from 0 as in bars.csv, None when all are slack; max_tension_bar_label: the labels
-    of its two knots. slack_bars: how many bars have no tension. max_displacement: of a knot, against its
+    of its two knots. slack_bars: how many bars have no tension, tubes apart. max_displacement: of a knot, against its
     initial position. max_strain: of a bar, (length - rest length) / rest length, 0 where all are slack.
+    real_knots, real_bars: those of the real netting where meshes are grouped, group: the most real meshes that one
+    stands for along an axis, 1 where all stand for themselves; tensions are those of one real bar.
     residual: largest unbalanced force on a free knot. time: simulated time, None for statics.
     """
     net, outcome, last = result.net, result.outcome, result.frame()
+    measures = measure_net(net)
     bar = int(np.argmax(last.tension)) if np.any(last.tension > 0.0) else None
     strain = bar_lengths(result) / net.rest_length - 1.0
     drag, lift = drag_and_lift(last.hydrodynamic_force, flow_direction)
@@ -76,7 +80,7 @@ def summary(
         "weight_in_water": result.weight_in_water,
         "max_tension": float(np.max(last.tension, initial=0.0)),
         "max_tension_bar": bar,
-        "slack_bars": int(np.count_nonzero(last.tension <= 0.0)),
+        "slack_bars": int(np.count_nonzero((last.tension <= 0.0) & ~net.two_way)),
         "max_displacement": float(np.max(np.linalg.norm(last.position - net.positions, axis=1))),
         "version": __version__,
         "case_sha256": case_sha256 or case_hash(result.case_text),
@@ -88,6 +92,9 @@ def summary(
         "lift": lift,
         "max_strain": float(np.max(strain, initial=0.0)),
         "time": outcome.time if outcome.time > 0.0 else None,
+        "real_knots": measures.real_knots,
+        "real_bars": measures.real_bars,
+        "group": measures.group,
         "rejected": outcome.rejected,
         "force_evaluations": outcome.force_evaluations,
         "audit": None if audit is None else audit.figures(),

@@ -27,9 +27,25 @@ FRAME_FIELDS: tuple[Field, ...] = (
     Field("time", ("time",), "s", "simulated time"),
     Field("position", ("time", "knot", "xyz"), "m", "position of every knot"),
     Field("velocity", ("time", "knot", "xyz"), "m s-1", "velocity of every knot"),
-    Field("tension", ("time", "bar"), "N", "tension of every bar, 0 where slack"),
-    Field("bar_drag", ("time", "bar"), "N", "force of the water on a bar along the flow at it"),
-    Field("bar_lift", ("time", "bar"), "N", "size of the force of the water on a bar across the flow"),
+    Field(
+        "tension",
+        ("time", "bar"),
+        "N",
+        "tension of every bar, of one real bar where it stands for several, 0 where slack; axial force of tubes, "
+        "below 0 where they push",
+    ),
+    Field(
+        "bar_drag",
+        ("time", "bar"),
+        "N",
+        "force of the water on a bar, all that it stands for, along the flow at it",
+    ),
+    Field(
+        "bar_lift",
+        ("time", "bar"),
+        "N",
+        "size of the force of the water on a bar, all that it stands for, across the flow",
+    ),
     Field(
         "water_velocity",
         ("time", "bar", "xyz"),
@@ -56,13 +72,17 @@ NET_FIELDS: dict[str, Field] = {
     ),
     "fixed": Field("fixed", ("knot",), "1", "whether a knot is held in place: 0 free, 1 fixed"),
     "knot_diameter": Field("knot_diameter", ("knot",), "m", "diameter of every knot, 0 for none"),
+    "knot_multiple": Field("knot_multiple", ("knot",), "1", "how many real knots a knot stands for"),
     "knot_density": Field("knot_density", ("knot",), "kg m-3", "density of every knot"),
     "load": Field("load", ("knot", "xyz"), "N", "dead load on top of weight, buoyancy and water"),
     "bars": Field("bar_knots", ("bar", "end"), "1", "the two knots that a bar joins, counted from 0"),
-    "rest_length": Field("rest_length", ("bar",), "m", "unloaded length of every bar"),
+    "rest_length": Field(
+        "rest_length", ("bar",), "m", "unloaded length of every bar, of grouped netting as many real ones"
+    ),
     "twine_of_bar": Field(
         "twine_of_bar", ("bar",), "1", "place of a bar's twine in the attribute 'twines', counted from 0"
     ),
+    "bar_multiple": Field("bar_multiple", ("bar",), "1", "how many real bars side by side a bar stands for"),
     "bar_diameter": Field("bar_diameter", ("bar",), "m", "twine diameter of every bar"),
 }
 

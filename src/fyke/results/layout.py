@@ -30,7 +30,7 @@ from .fields import AXES, FRAME_FIELDS, NET_FIELDS, SCHEMA, WEIGHT, Field
 Array = NDArray[np.float64]
 FLOAT = np.dtype("<f8")
 # Sizes in a file, generous: of a knot with its label, of a bar, and of everything else, twines and panels included.
-BYTES_OF_KNOT, BYTES_OF_BAR, BYTES_BESIDES = 130, 40, 100_000
+BYTES_OF_KNOT, BYTES_OF_BAR, BYTES_BESIDES = 140, 50, 100_000
 RUNNING = {"outcome": "running"}
 
 

@@ -3,7 +3,7 @@
 Nothing is counted twice and nothing is left out: forces and weights of the parts add up to those of the whole net. A
 bar is of one panel or rope, a knot of the first panel, else the first rope, that has it; floats and sinkers are parts
 of their own, and what is of no part is one more. A part hands to a held knot the pull of its own bars there, half of
-their weight and of the water on them, and what acts on its own knots.
+their weight and of the water on them, what acts on its own knots and, where held knots are moved, its inertia.
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from ..netting.net import Bodies, Net
 from ..solve.result import Result
 from ..system.system import System
 from .derive import drag_and_lift
+from .moved import HeldInertia, held_inertia
 from .tables import write_table
 from .volume import volume_history
 from .water import flow_direction
@@ -87,7 +88,7 @@ def _pieces(net: Net) -> list[_Piece]:
     pieces = [
         _Piece(one.shape, one.name, np.unique(net.bars[one.bars]), _once(one.bars)) for one in net.panels
     ]
-    pieces += [_Piece("rope", one.name, np.unique(one.knots), one.bars[:, None]) for one in net.ropes]
+    pieces += [_Piece(one.kind, one.name, np.unique(one.knots), one.bars[:, None]) for one in net.ropes]
     free, bare = np.ones(net.bar_count, dtype=bool), np.ones(net.knot_count, dtype=bool)
     for piece in pieces:
         free[piece.chains], bare[piece.knots] = False, False
@@ -137,7 +138,7 @@ def _loads(system: System, frame: Frame) -> _Loads:
     bodies = [_on_bodies(one, system.water.density, wet, push, rest, displaced) for one in net.bodies]
     for one, force in zip(net.bodies, bodies, strict=True):
         np.subtract.at(own, one.knots, force)
-    return _Loads(on_bars, own, bodies, frame.tension[:, None] * t)
+    return _Loads(on_bars, own, bodies, (net.bar_multiple * frame.tension)[:, None] * t)
 
 
 def _on_bodies(one: Bodies, density: float, wet: Array, push: Array, rest: Array, displaced: Array) -> Array:
@@ -169,10 +170,11 @@ def by_part(system: System, result: Result, *, depth: float | None = None) -> tu
     from_bars = np.zeros((net.bar_count, 3))
     for end, sign in zip(net.bars.T, (1.0, -1.0), strict=True):
         from_bars += net.fixed[end, None] * (sign * loads.pull + 0.5 * loads.bars - 0.5 * bars[:, None] * up)
+    inertia = held_inertia(system, frame)
     sums = {
         "water": (loads.bars, loads.knots),
         "weight": (bars[:, None], knots[:, None]),
-        "support": (from_bars, net.fixed[:, None] * at_knots),
+        "support": (from_bars + inertia.bars, net.fixed[:, None] * at_knots + inertia.knots),
     }
     totals = {
         name: _summed(len(pieces), bar_owner, a) + _summed(len(pieces), knot_owner, b)
@@ -183,7 +185,7 @@ def by_part(system: System, result: Result, *, depth: float | None = None) -> tu
         for number, piece in enumerate(pieces)
         if piece.kind != OTHERS or piece.chains.size or piece.knots.size
     ]
-    return (*told, *_of_bodies(system, result, loads, depth))
+    return (*told, *_of_bodies(system, result, loads, inertia, depth))
 
 
 def _summed(count: int, owner: Indices, values: Array) -> Array:
@@ -197,8 +199,8 @@ def _weights(system: System) -> tuple[Array, Array]:
     net, w = system.net, system.water
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
-    ball = np.pi / 6.0 * net.knot_diameter**3
-    bars = w.gravity * (density - w.density) * area * net.rest_length
+    ball = net.knot_multiple * np.pi / 6.0 * net.knot_diameter**3
+    bars = w.gravity * (density - w.density) * area * net.bar_multiple * net.rest_length
     return bars, w.gravity * (net.knot_density - w.density) * ball
 
 
@@ -236,12 +238,14 @@ def _inner(piece: _Piece) -> int:
     return len(piece.chains) * (int(piece.chains.shape[1]) - 1)
 
 
-def _of_bodies(system: System, result: Result, loads: _Loads, depth: float | None) -> Iterator[PartFigures]:
+def _of_bodies(
+    system: System, result: Result, loads: _Loads, inertia: HeldInertia, depth: float | None
+) -> Iterator[PartFigures]:
     net, w = system.net, system.water
-    for one, force in zip(net.bodies, loads.bodies, strict=True):
+    for one, force, moved in zip(net.bodies, loads.bodies, inertia.bodies, strict=True):
         each = w.gravity * (one.mass - w.density * one.volume)
         water = force.sum(axis=0)
-        support = (net.fixed[one.knots, None] * (force - [0.0, 0.0, each])).sum(axis=0)
+        support = (net.fixed[one.knots, None] * (force - [0.0, 0.0, each]) + moved).sum(axis=0)
         drag, lift = drag_and_lift(water, flow_direction(system))
         yield PartFigures(
             kind=one.kind,

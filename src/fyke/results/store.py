@@ -95,9 +95,13 @@ def _read(file: Any, attributes: dict[str, Any]) -> Result:
     return Result(net=net, outcome=outcome, weight_in_water=weight, case_text=attributes["case"], **frames)
 
 
+MULTIPLES = ("bar_multiple", "knot_multiple")
+
+
 def _read_net(file: Any, attributes: dict[str, Any]) -> Net:
     names = {name: field.name for name, field in NET_FIELDS.items() if name not in ("bar_diameter", "labels")}
-    values = {name: file[field_name][...] for name, field_name in names.items()}
+    # Files of a version before grouped netting have no multiples, which are ones then.
+    values = {name: file[at][...] for name, at in names.items() if at in file or name not in MULTIPLES}
     values["fixed"] = values["fixed"].astype(bool)
     return Net(
         labels=tuple(file[NET_FIELDS["labels"].name].asstr()[...]),

@@ -22,8 +22,9 @@ def write_tables(result: Result, folder: str | Path) -> tuple[Path, Path]:
     """Write knots.csv and bars.csv of the last frame into a folder, which is made where missing.
 
     knots.csv: knot,label,fixed,x0,y0,z0,x,y,z: number, label, 1 where held, initial and last position (m).
-    bars.csv: bar,knot_a,knot_b,rest_length,length,tension: numbers, m, m, N. Knots and bars are counted from
-    0; numbers carry all their digits, so that reading them gives the same float64.
+    bars.csv: bar,knot_a,knot_b,rest_length,length,tension: numbers, m, m, N; of grouped netting the lengths are
+    those of the larger bars, the tension is that of one real bar. Knots and bars are counted from 0; numbers carry
+    all their digits, so that reading them gives the same float64.
     """
     net, last = result.net, result.frame()
     knots = Path(folder, "knots.csv")

@@ -21,13 +21,15 @@ ROUNDING = 1e-9
 
 
 def mean_current(system: System) -> Array:
-    """Return the current that a net meets, (3,) m/s.
+    """Return the current that a net meets, (3,) m/s, as seen from what tows it.
 
     It is that of the undisturbed water, at full strength at the time 0 at which runs begin, as the mean over the knots
     where the net was built; zero where currents cancel out.
     """
     current, points = at_full_strength(system.current), system.net.positions
     flow = current.velocity(points[:1] if current.uniform else points, 0.0)
+    if system.motion is not None:
+        flow = flow - system.motion.tow
     mean = flow.mean(axis=0)
     fastest = float(np.linalg.norm(flow, axis=1).max(initial=0.0))
     return np.asarray(mean if np.linalg.norm(mean) > ROUNDING * fastest else np.zeros(3))

@@ -67,7 +67,7 @@ class Auto:
             raise ValueError(f"rtol {self.rtol:g} must not be below 0 and atol {self.atol:g} must be above 0")
 
     def start(self, system: System, state: State) -> AutoRun | ImplicitRun:
-        """Begin a run; screens and parts are for the implicit method alone."""
+        """Begin a run; screens, parts and moved knots are for the implicit method alone."""
         if only_implicit(system):
             return Implicit(self.rtol, self.atol, self.max_step).start(system, state)
         return AutoRun(self, system, state)

@@ -2,7 +2,7 @@
 
 Unknowns x and, for every bar, T > 0 and w > 0 with w = T - f(e), T w = mu -> 0; f is the elastic law, e the
 elongation, linearised at every step. Predictor and corrector after Mehrotra 1992; the corrector carries the elongation
-that the predicted motion makes beyond its linear part.
+that the predicted motion makes beyond its linear part. A two-way bar has T = f(e) of either sign and w = 0.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from ..forces.compiled import OPTIONS
 
 
 @njit(**OPTIONS)
-def path_stiffness(T, w, k, t, length, along, block):
+def path_stiffness(T, w, k, t, length, two_way, along, block):
     """Stiffness T k/(w + T) of every bar along itself into along (m,) N/m; with T/L across it into block (m, 3, 3)."""
     for e in range(T.shape[0]):
-        along[e] = T[e] * k[e] / (w[e] + T[e])
+        along[e] = k[e] if two_way[e] else T[e] * k[e] / (w[e] + T[e])
         across = T[e] / length[e]
         for p in range(3):
             for q in range(3):
@@ -26,10 +26,13 @@ def path_stiffness(T, w, k, t, length, along, block):
 
 
 @njit(**OPTIONS)
-def path_target(mu, T, w, r, cross, target):
+def path_target(mu, T, w, r, cross, two_way, target):
     """Tension change without motion into target (m,) N; r = w - T + f(e), cross: predictor's dT dw (N2)."""
     for e in range(T.shape[0]):
-        target[e] = (mu - T[e] * w[e] - cross[e] + T[e] * r[e]) / (w[e] + T[e])
+        if two_way[e]:
+            target[e] = r[e]
+        else:
+            target[e] = (mu - T[e] * w[e] - cross[e] + T[e] * r[e]) / (w[e] + T[e])
 
 
 @njit(**OPTIONS)
@@ -62,10 +65,12 @@ def bar_changes(dx, along, k, r, target, el, t, de, dT, dw):
 
 
 @njit(**OPTIONS)
-def path_step(T, w, dT, dw):
-    """Return the longest step that keeps every T and w from becoming negative, at most 1e30."""
+def path_step(T, w, dT, dw, two_way):
+    """Return the longest step that keeps T and w of every one-way bar from becoming negative, at most 1e30."""
     longest = 1e30
     for e in range(T.shape[0]):
+        if two_way[e]:
+            continue
         if dT[e] < 0.0:
             longest = min(longest, -T[e] / dT[e])
         if dw[e] < 0.0:
@@ -74,12 +79,12 @@ def path_step(T, w, dT, dw):
 
 
 @njit(**OPTIONS)
-def path_product(T, w, dT, dw, step):
-    """Mean of (T + step dT)(w + step dw), N2."""
+def path_product(T, w, dT, dw, step, count):
+    """Mean of (T + step dT)(w + step dw) over a count of one-way bars, N2; of two-way bars it is zero."""
     total = 0.0
     for e in range(T.shape[0]):
         total += (T[e] + step * dT[e]) * (w[e] + step * dw[e])
-    return total / T.shape[0]
+    return total / count
 
 
 @njit(**OPTIONS)

@@ -5,7 +5,7 @@ second-order cone {(y0, y1): y0 >= |y1|}. Equilibrium under dead load is the con
     min  sum phi(s) - load.x,  Y in the cone,  with T = phi'(s) = f(s), q = -T d/(l0 + s) and Y o Z = 0,
 whose constraint is linear in x: a rotating bar makes no false stretch. Scaling, search direction and corrector are
 those of Nesterov & Todd 1997 and Mehrotra 1992 as set out for cone programs by Vandenberghe, The CVXOPT linear and
-quadratic cone program solvers (2010).
+quadratic cone program solvers (2010). Two-way bars are no cones (solve.two_way): Z, dY and dZ of theirs stay zero.
 """
 
 from __future__ import annotations
@@ -37,9 +37,11 @@ def _scale(s, v, forward, out):
 
 
 @njit(**OPTIONS)
-def scaling_point(Y, Z, scaling, scaled):
+def scaling_point(Y, Z, two_way, scaling, scaled):
     """Nesterov-Todd scaling of every bar into scaling (m, 5), scaled point W Z = W^-1 Y into scaled (m, 4)."""
     for e in range(Y.shape[0]):
+        if two_way[e]:
+            continue
         ny, nz = _cone_norm(Y[e]), _cone_norm(Z[e])
         dot = 0.0
         for q in range(4):
@@ -53,12 +55,14 @@ def scaling_point(Y, Z, scaling, scaled):
 
 
 @njit(**OPTIONS)
-def cone_stiffness(scaling, k, block, row):
+def cone_stiffness(scaling, k, two_way, block, row):
     """Stiffness of every bar with its allowance s eliminated, block (m, 3, 3) N/m, and row (m, 4) N/m.
 
     With M = W^-2: row = (k + M00, M01), block = M11 - M01 M01^T / (k + M00).
     """
     for e in range(k.shape[0]):
+        if two_way[e]:
+            continue
         inverse = 1.0 / scaling[e, 0] ** 2
         w0 = scaling[e, 1]
         pivot = k[e] + inverse * (2.0 * w0 * w0 - 1.0)
@@ -72,10 +76,12 @@ def cone_stiffness(scaling, k, block, row):
 
 
 @njit(**OPTIONS)
-def cone_target(scaling, scaled, centre, cross, target):
+def cone_target(scaling, scaled, centre, cross, two_way, target):
     """Dual change without motion, W^-1 u, into target (m, 4); l o u = centre e - l o l - cross, l the scaled point."""
     d = np.zeros(4)
     for e in range(scaled.shape[0]):
+        if two_way[e]:
+            continue
         l0, l1, l2, l3 = scaled[e]
         square = l1 * l1 + l2 * l2 + l3 * l3
         r = np.sqrt(square)
@@ -93,6 +99,8 @@ def cone_right_side(load, Z, f, target, row, el, free, push, total, out):
     """Load less dual force with its change push (m, 3) N, on the free knots, into out (3 n_free,) N."""
     total[:] = load
     for e in range(Z.shape[0]):
+        if el.two_way[e]:
+            continue
         a, b = el.knot_a[e], el.knot_b[e]
         c = (target[e, 0] + Z[e, 0] - f[e]) / row[e, 0]
         for q in range(3):
@@ -109,6 +117,8 @@ def cone_right_side(load, Z, f, target, row, el, free, push, total, out):
 def cone_changes(dx, Z, f, k, target, row, push, block, el, dY, dZ):
     """Changes dY and dZ (m, 4) of every bar for a motion dx (n, 3) m."""
     for e in range(Z.shape[0]):
+        if el.two_way[e]:
+            continue
         a, b = el.knot_a[e], el.knot_b[e]
         coupling = 0.0
         for q in range(3):
@@ -124,10 +134,12 @@ def cone_changes(dx, Z, f, k, target, row, push, block, el, dY, dZ):
 
 
 @njit(**OPTIONS)
-def cone_cross(scaling, dY, dZ, factor, cross):
+def cone_cross(scaling, dY, dZ, factor, two_way, cross):
     """Second-order term factor (W^-1 dY) o (W dZ) of the corrector into cross (m, 4)."""
     y, z = np.zeros(4), np.zeros(4)
     for e in range(dY.shape[0]):
+        if two_way[e]:
+            continue
         _scale(scaling[e], dY[e], False, y)
         _scale(scaling[e], dZ[e], True, z)
         cross[e, 0] = factor * (y[0] * z[0] + y[1] * z[1] + y[2] * z[2] + y[3] * z[3])
@@ -174,13 +186,13 @@ def cone_turn(Y, dY):
 
 
 @njit(**OPTIONS)
-def cone_product(Y, Z, dY, dZ, step):
-    """Mean over the bars of (Y + step dY).(Z + step dZ), N m."""
+def cone_product(Y, Z, dY, dZ, step, count):
+    """Mean over a count of one-way bars of (Y + step dY).(Z + step dZ), N m."""
     total = 0.0
     for e in range(Y.shape[0]):
         for q in range(4):
             total += (Y[e, q] + step * dY[e, q]) * (Z[e, q] + step * dZ[e, q])
-    return total / Y.shape[0]
+    return total / count
 
 
 @njit(**OPTIONS)

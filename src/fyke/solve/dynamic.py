@@ -228,6 +228,7 @@ def _loop(
             "give its twine a density or the knot a diameter and a density",
         )
     frame = evaluate(system, run.state)
+    steady_from = 0.0 if system.motion is None else system.motion.steady_from
     for end in times.tolist():
         while run.state.time < end:
             status = run.advance(end)
@@ -238,7 +239,7 @@ def _loop(
                 on_progress(float(done), f"t = {run.state.time:.4g} s, step {run.step:.2e} s")
         frame = evaluate(system, run.state)
         keep(frame)
-        if settle is not None and end > begin and settle.reached(frame):
+        if settle is not None and end > begin and end >= steady_from and settle.reached(frame):
             return "converged", f"at rest after {frame.time:.4g} s: {settle.describe()}", ""
     if settle is None:
         return "completed", f"{frame.time:g} s simulated", ""

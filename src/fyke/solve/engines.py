@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from typing import Any, Protocol
 
 import numpy as np
@@ -110,6 +111,20 @@ class RslabSymmetric:
             raise BreakdownError(str(error)) from error
         solve: Factored = handle.solve
         return solve
+
+
+def falling(pattern: Pattern, data: Array) -> int:
+    """Count the negative eigenvalues of a symmetric matrix by its LDL^T; 0 where RSLAB is not there or finds none."""
+    if find_spec("rslab") is None:
+        return 0
+    import rslab
+
+    matrix = pattern.matrix(data)
+    try:
+        handle = rslab.analyze(matrix, path="ldlt", **_LU_SETTINGS).factor(matrix)
+    except _FAULTS:
+        return 0
+    return int(handle.inertia[1])
 
 
 class RslabSmall:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..forces.bars import add_tension, assemble, bar_geometry, elastic, largest_on_free
+from ..forces.bars import add_tension, assemble, bar_geometry, borne, elastic, largest_on_free
 from ..forces.shear import add_shear
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
@@ -103,7 +103,7 @@ class Equilibrium:
         elastic(b.length - el.rest_length, el, b.f, b.k)
         self.surroundings.load(self.x, self.u, el, b.t, b.length, b.load)
         b.total[:] = b.load
-        add_tension(np.maximum(b.f, 0.0), el, b.t, b.total)
+        add_tension(borne(b.f, el), el, b.t, b.total)
         worst, where = largest_on_free(b.total, el.free)
         return float(worst), int(where)
 

@@ -8,6 +8,7 @@ from ..forces.bars import elastic
 from . import cone
 from .equilibrium import Equilibrium, typical_tension
 from .linear import Solve
+from .two_way import TwoWay
 
 # Fraction of the way to the edge of the cone that one step may take.
 TO_EDGE = 0.99
@@ -37,40 +38,60 @@ class Far:
         self.Z[:, 0] = tension
         # Halfway between no dual force and the one of the central path.
         self.Z[:, 1:] = -0.5 * tension * self.Y[:, 1:] / self.Y[:, :1]
+        self.tubes = TwoWay(s, tension)
+        # No cones: whatever lies well inside one, and does not change.
+        self.Y[el.two_way] = 0.0
+        self.Y[el.two_way, 0] = 2.0 * el.rest_length[el.two_way]
+        self.Z[el.two_way] = 0.0
+        self.cones = m - int(np.count_nonzero(el.two_way))
 
     def near(self, gap: float) -> bool:
         """Whether a bar is so near to its cone's edge, over its length, that the near field may take over."""
-        return bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < gap)
+        return not self.cones or bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < gap)
 
     def step(self) -> float:
         """Predictor and corrector; return the length of the step taken."""
-        s, b = self.s, self.s.b
+        s, b, two_way = self.s, self.s.b, self.s.el.two_way
         elastic(self.Y[:, 0] - s.el.rest_length, s.el, self.f, self.k)
-        mu = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, 0.0)
-        cone.scaling_point(self.Y, self.Z, self.scaling, self.scaled)
-        cone.cone_stiffness(self.scaling, self.k, b.block, self.row)
+        mu = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, 0.0, self.cones)
+        cone.scaling_point(self.Y, self.Z, two_way, self.scaling, self.scaled)
+        cone.cone_stiffness(self.scaling, self.k, two_way, b.block, self.row)
+        self.tubes.stiffness()
         solve = s.factor()
         self.cross[:] = 0.0
-        self._direction(solve, 0.0)
+        turn = self._direction(solve, 0.0)
         affine = min(1.0, cone.cone_step(self.Y, self.dY), cone.cone_step(self.Z, self.dZ))
-        ratio = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, affine) / mu
-        cone.cone_cross(self.scaling, self.dY, self.dZ, affine * affine, self.cross)
-        self._direction(solve, min(1.0, max(ratio**3, LEAST_CENTRING)) * mu)
-        turn = LARGEST_TURN / max(cone.cone_turn(self.Y, self.dY), LARGEST_TURN)
+        ratio = cone.cone_product(self.Y, self.Z, self.dY, self.dZ, affine, self.cones) / mu
+        cone.cone_cross(self.scaling, self.dY, self.dZ, affine * affine, two_way, self.cross)
+        self.tubes.bend(min(affine, LARGEST_TURN / max(turn, LARGEST_TURN)))
+        turn = self._direction(solve, min(1.0, max(ratio**3, LEAST_CENTRING)) * mu)
+        turn = LARGEST_TURN / max(turn, cone.cone_turn(self.Y, self.dY), LARGEST_TURN)
         edge = TO_EDGE * min(cone.cone_step(self.Y, self.dY), cone.cone_step(self.Z, self.dZ))
         step: float = min(turn, edge)
         self.Y += step * self.dY
         self.Z += step * self.dZ
+        self.tubes.T += step * self.tubes.dT
         s.accept(step)
         return step
 
-    def _direction(self, solve: Solve, centre: float) -> None:
+    def _direction(self, solve: Solve, centre: float) -> float:
+        """Search direction; returns the largest rotation of a two-way bar (rad)."""
         s, b = self.s, self.s.b
-        cone.cone_target(self.scaling, self.scaled, centre, self.cross, self.target)
+        cone.cone_target(self.scaling, self.scaled, centre, self.cross, s.el.two_way, self.target)
         cone.cone_right_side(
-            b.load, self.Z, self.f, self.target, self.row, s.el, s.pattern.free, self.push, b.total, b.right
+            self.tubes.load(),
+            self.Z,
+            self.f,
+            self.target,
+            self.row,
+            s.el,
+            s.pattern.free,
+            self.push,
+            b.total,
+            b.right,
         )
         s.move(solve)
         cone.cone_changes(
             b.dx, self.Z, self.f, self.k, self.target, self.row, self.push, b.block, s.el, self.dY, self.dZ
         )
+        return self.tubes.changes()

@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import NDArray
 
+from ..forces.bars import borne
 from .equilibrium import Equilibrium
 from .outcome import Verdict
 
@@ -65,7 +66,7 @@ def by_renewals(s: Equilibrium, tolerance: float, tension: Array | None, find_sh
         s.renew()
         if s.residual <= max(tolerance, s.floor):
             return "converged", f"{verdict[1]}, shelter renewed {renewal} times", ""
-        near_by, tension = CLOSER * max(tolerance, s.residual), np.maximum(s.b.f, 0.0)
+        near_by, tension = CLOSER * max(tolerance, s.residual), borne(s.b.f, s.el)
         water.left = approach.step(held, water.left)
         s.begin_at(s.x)
     s.renew()

@@ -20,8 +20,9 @@ from ..forces.evaluate import bar_tensions
 from ..forces.inertia import invert_masses, mass_matrices
 from ..forces.surroundings import Surroundings
 from ..system.system import State, System
-from .equilibrium import typical_tension
+from .equilibrium import ROUNDING, typical_tension
 from .linear import SingularMatrixError
+from .smooth import begin_smooth
 from .step_newton import Ahead, StepNewton
 from .stepper import Count, Memory, Status
 
@@ -128,16 +129,21 @@ class ImplicitRun:
         self.count = Count()
         el = self.el = system.elements
         self.surroundings = Surroundings(system)
-        self.surroundings.renew(state.position, state.time)
         self.x, self.v, self.time = state.position.copy(), state.velocity.copy(), state.time
+        if system.motion is not None:
+            system.motion.carry(self.x, self.v, self.time)
+            self.state = State(self.time, self.x.copy(), self.v.copy())
+        self.surroundings.renew(self.x, self.time)
         self.a, f, load = self._beginning()
         prestress = float(np.maximum(f, 0.0).sum()) / max(len(f), 1)
-        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, TINY)
+        rounding = ROUNDING * float(
+            np.finfo(float).eps * el.stiffness.max(initial=0.0) * np.abs(self.x).max()
+        )
+        self.tension_scale = max(typical_tension(el, load), PRESTRESS * prestress, rounding, TINY)
         mu = (SMOOTHING * self.tension_scale) ** 2
         self.newton = StepNewton(self.surroundings, self.u, mu, self.tension_scale)
         self.linear_solver = self.newton.linear.name
-        self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * mu))
-        self.w = self.T - f
+        self.T, self.w = begin_smooth(f, mu, el)
         self.before = (self.time, self.x, self.v, self._tension())
         self.tolerance = method.atol + method.rtol * float(el.rest_length.min(initial=1.0))
         self.step = self._first_step()
@@ -191,17 +197,19 @@ class ImplicitRun:
         x = (1 + 2 * s) * (1 - s) ** 2 * x0 + s * s * (3 - 2 * s) * self.x
         x += s * (1 - s) ** 2 * h * v0 - s * s * (1 - s) * h * self.v
         v = 6 * s * (1 - s) * (self.x - x0) / h + (1 - s) * (1 - 3 * s) * v0 - s * (2 - 3 * s) * self.v
+        if self.system.motion is not None:
+            self.system.motion.carry(x, v, time)
         return State(time, x, v, (1.0 - s) * tension0 + s * self._tension())
 
     def _tension(self) -> Array:
         """Tension of every bar, (m,) N, without what the smoothing leaves on slack ones."""
-        return np.where(self.T > self.w, self.T, 0.0)
+        return np.where(self.el.two_way | (self.T > self.w), self.T, 0.0)
 
     def _step_once(self) -> Status:
         """One accepted step."""
         method = self.method
         while True:
-            h = self.step if method.max_step is None else min(self.step, method.max_step)
+            h = self._next_step()
             if h < LEAST_STEP * max(self.time, 1.0):
                 return "step_too_small"
             if not self._arrives(h):
@@ -222,6 +230,19 @@ class ImplicitRun:
             self.step = h * (GROWTH if method.fixed else min(GROWTH, max(SHRINK, factor)))
             return "ok"
 
+    def _next_step(self) -> float:
+        """Step (s) to try: the one wanted, short enough for the motion of held knots unless steps are fixed."""
+        method, motion = self.method, self.system.motion
+        step = self.step if method.max_step is None else min(self.step, method.max_step)
+        return step if motion is None or method.fixed else min(step, motion.longest_step(self.time))
+
+    def _ahead(self, h: float) -> Ahead:
+        """What a step h makes of its acceleration; moved knots are where they will be, whatever it is."""
+        ahead = self.method.ahead(h, self._past(h))
+        if self.system.motion is not None:
+            self.system.motion.carry(ahead.x0, ahead.v0, self.time + h)
+        return ahead
+
     def _arrives(self, h: float) -> bool:
         """Whether Newton finds the step."""
         try:
@@ -234,7 +255,7 @@ class ImplicitRun:
         found, el = self.newton, self.el
         free = found.pattern.free
         drifting = np.ones(len(self.x), dtype=bool)
-        taut = (self.T > self.w) | (found.T > found.w)
+        taut = el.two_way | (self.T > self.w) | (found.T > found.w)
         drifting[el.knot_a[taut]] = drifting[el.knot_b[taut]] = False
         square = ((found.a - self.a)[free] ** 2).sum(axis=1)
         alone = square[drifting[free]]
@@ -254,9 +275,9 @@ class ImplicitRun:
         newton = self.newton
         # The last accelerations are no guess: where bars have just snapped they are large and gone.
         newton.begin(
-            self.method.ahead(h, self._past(h)),
+            self._ahead(h),
             self.time + h,
-            self.T > self.w,
+            self.el.two_way | (self.T > self.w),
             np.zeros_like(self.x),
             self.T,
             self.w,

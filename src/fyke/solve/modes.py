@@ -1,8 +1,9 @@
 """Natural modes of a net about its equilibrium: frequencies, periods and shapes of small free oscillations.
 
 M a + K x = 0 with the stiffness of the taut bars and the mass of the knots, added mass included. A taut bar resists
-every relative motion of its ends, along it by the slope of its law and across it by T/L. So K has an inverse exactly
-when chains of taut bars join every knot to a held one; knots that they do not reach are left out and named.
+every relative motion of its ends, along it by the slope of its law and across it by T/L. So K of a net has an inverse
+exactly when chains of taut bars join every knot to a held one; knots that they do not reach are left out and named.
+Tubes, which push and bend, and the buoyancy of what floats add to K; a strut that buckles has none of its own.
 
 The lowest modes of large nets come from Lanczos' method on K^-1 M with one factorization of K (ARPACK, by
 scipy.sparse.linalg.eigsh). Symmetric nets have modes in pairs of one frequency, of which one run may see only one;
@@ -11,20 +12,22 @@ further runs across the modes already found look for what was missed, until noth
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import ArrayLike, NDArray
-from scipy.linalg import eigh
+from scipy.linalg import LinAlgError, eigh
 from scipy.sparse.csgraph import connected_components
 from scipy.sparse.linalg import LinearOperator, eigsh
 from threadpoolctl import threadpool_limits
 
 from ..forces.bars import assemble, bar_geometry, elastic
 from ..forces.inertia import mass_matrices
+from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import System
+from .engines import falling
 from .equilibrium import ROUNDING
 from .linear import Pattern, Solve, factorizer
 
@@ -35,6 +38,11 @@ Knots = NDArray[np.int64]
 DENSE = 150
 # Two frequencies are one when they differ by less than this of their size.
 SAME = 1e-8
+# Squares of frequencies so many times below the rounding of the stiffness are no rounding: the net leaves by itself.
+NOISE = 100.0
+# Stiffness, over the largest, that counts as none.
+NEUTRAL = 1e-12
+UNSTABLE = "this equilibrium is not stable: a tube buckles, or something turns over, when it is touched"
 
 
 @dataclass(frozen=True)
@@ -66,53 +74,90 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
 
     The linear system M a + K x = 0: K is dT/dL along and T/L across every taut bar, slack bars have none; M is the
     knots' mass with the added mass of knots and bars, the latter as the bars lie at the equilibrium. Left out are
-    the change of the water's load as the net moves and turns, the drag, which damps, and twine damping. In water,
+    the change of the current's load as the net moves and turns, the drag, which damps, and twine damping. In water,
     then, the periods are those of the undamped net; drag may leave no oscillation at all. A frequency that is below
     the rounding of the stiffness is 0 and its period infinite.
 
-    Raises ValueError for a count below 1, positions of another shape or not finite, a free knot without mass.
+    Raises ValueError for a count below 1, positions of another shape or not finite, a free knot without mass, and an
+    equilibrium that a tube would leave by itself.
     """
     x = np.ascontiguousarray(position, dtype=float)
     _check(system, x, count)
-    el, n = system.elements, system.net.knot_count
-    # About the net's middle, coordinates are smallest and so is their rounding.
-    x = x - x.mean(axis=0)
-    t, along, across = _bar_stiffness(x, el)
-    loose = _loose(el, across > 0.0)
-    # A loose knot hangs on slack bars only: holding it changes nothing else.
-    free = el.free.copy()
-    free[loose] = 0.0
-    el = el._replace(free=free)
-    pattern = Pattern.of(el)
-    stiffness = _stiffness_matrix(t, along, across, el, pattern)
-    mass = _mass_matrix(x, el, pattern)
+    n = system.net.knot_count
+    el, pattern, data, loose = _stiffness(system, x)
+    stiffness = pattern.matrix(data)
+    mass = _mass_matrix(x - x.mean(axis=0), el, pattern)
     size = stiffness.shape[0]
     count = min(count, size)
     # Rounding of K in units of omega^2. Shifted by that much, K has an inverse however little the bars pull.
     shift = float(np.finfo(float).eps * (stiffness.diagonal() / mass.diagonal()).max(initial=0.0))
     if size <= max(DENSE, 3 * count):
-        square, vectors = _all(stiffness, mass, shift, count)
+        try:
+            square, vectors = _all(stiffness, mass, shift, count)
+        except LinAlgError as error:
+            raise ValueError(UNSTABLE) from error
     else:
         solve = _inverse(stiffness, mass, shift, pattern)
         # Lanczos' short BLAS products gain nothing from threads, which would fight with those of the solves.
         with threadpool_limits(1, user_api="blas"):
             square, vectors = _lowest(solve, mass, shift, count)
+    if el.two_way.any() and square.min(initial=0.0) < -NOISE * shift:
+        raise ValueError(UNSTABLE)
     shape = np.zeros((count, n, 3))
     shape[:, pattern.free] = vectors.reshape(count, len(pattern.free), 3)
     return Modes(np.sqrt(np.where(square > shift, square, 0.0)), _scaled(shape), loose)
 
 
-def _bar_stiffness(x: Array, el: Elements) -> tuple[Array, Array, Array]:
-    """Unit vector (m, 3) of every bar, and its stiffness along and across itself, (m,) N/m each, zero where slack."""
+def stability_warnings(system: System, position: Array) -> tuple[str, ...]:
+    """One sentence where an equilibrium at position (n, 3) m of a net with tubes is not stable under loads that stay.
+
+    None where nothing can push, and where no solver at hand counts the directions in which a matrix has no stiffness.
+    """
+    if not system.elements.two_way.any():
+        return ()
+    _, pattern, data, _ = _stiffness(system, position)
+    begin, stride = pattern.diagonal[pattern.free].T
+    own = begin + np.arange(3)[:, None] * (stride + 1)
+    # What has no stiffness at all is none of the matter, as a ring that may turn.
+    data[own] += NEUTRAL * float(data[own].max(initial=0.0))
+    if not falling(pattern, data):
+        return ()
+    return (f"{UNSTABLE}; begin from a shape that is bent, or let it move in a dynamic case",)
+
+
+def _stiffness(system: System, position: Array) -> tuple[Elements, Pattern, Array, Knots]:
+    """Elements with loose knots held, and the stiffness of the net (N/m) as data of a pattern; the loose knots."""
+    still = np.zeros_like(position)
+    around = Surroundings(replace(system, waves=None))
+    el, _ = around.at(position, still, 0.0)
+    # About the net's middle, coordinates are smallest and so is their rounding.
+    x = position - position.mean(axis=0)
+    t, length, along, across = _bar_stiffness(x, el)
+    loose = _loose(el, el.two_way | (across > 0.0))
+    # A loose knot hangs on slack bars only: holding it changes nothing else.
+    free = el.free.copy()
+    free[loose] = 0.0
+    el = el._replace(free=free)
+    pattern = Pattern.of(el, around.groups)
+    data = _stiffness_data(t, along, across, el, pattern)
+    # In still water: parts and buoyancy alone.
+    around.assemble(x, still, 1.0, 0.0, pattern.groups, symmetric=True, data=data)
+    places = pattern.start, pattern.stride, pattern.diagonal
+    around.add_wetting(x, still, el, t, length, places, pattern.groups, symmetric=True, data=data)
+    return el, pattern, data, loose
+
+
+def _bar_stiffness(x: Array, el: Elements) -> tuple[Array, Array, Array, Array]:
+    """Unit vector (m, 3) and length (m,) m of every bar, stiffness along and across it, (m,) N/m, zero where slack."""
     m = len(el.knot_a)
     t, length, f, k = np.empty((m, 3)), np.empty(m), np.empty(m), np.empty(m)
     bar_geometry(x, el, t, length)
     stretch = length - el.rest_length
     elastic(stretch, el, f, k)
     # A bar as long as unloaded but for rounding is slack, else noise would pass for a very soft net.
-    taut = stretch > ROUNDING * np.finfo(float).eps * np.abs(x).max(initial=0.0)
+    taut = el.two_way | (stretch > ROUNDING * np.finfo(float).eps * np.abs(x).max(initial=0.0))
     across = np.divide(f, length, out=np.zeros(m), where=taut)
-    return t, np.where(taut, k, 0.0), across
+    return t, length, np.where(taut, k, 0.0), across
 
 
 def _check(system: System, x: Array, count: int) -> None:
@@ -137,13 +182,13 @@ def _loose(el: Elements, taut: NDArray[np.bool_]) -> Knots:
     return np.flatnonzero(~np.isin(part, part[el.free == 0.0]))
 
 
-def _stiffness_matrix(t: Array, along: Array, across: Array, el: Elements, pattern: Pattern) -> sp.csc_matrix:
-    """Stiffness of the free knots, N/m."""
+def _stiffness_data(t: Array, along: Array, across: Array, el: Elements, pattern: Pattern) -> Array:
+    """Stiffness of the bars between free knots, N/m, as data of the pattern."""
     block = np.einsum("e,ep,eq->epq", along - across, t, t) + across[:, None, None] * np.eye(3)
     data = np.zeros(len(pattern.indices))
     still = np.zeros((len(el.free), 3))
     assemble(block, still, el, t, pattern.start, pattern.stride, data)
-    return pattern.matrix(data)
+    return data
 
 
 def _mass_matrix(x: Array, el: Elements, pattern: Pattern) -> sp.bsr_matrix:

@@ -28,9 +28,11 @@ class Near:
     """Steps on tension and slack."""
 
     def __init__(self, s: Equilibrium, tension: Array, slack: Array) -> None:
-        """Begin with these tensions and slacks, (m,) N, both above zero."""
-        self.s, self.T, self.w = s, tension, slack
+        """Begin with these tensions and slacks, (m,) N, of one-way bars both above zero."""
+        self.s, self.T, self.w = s, tension, np.where(s.el.two_way, 0.0, slack)
         m = len(tension)
+        self.one_way = ~s.el.two_way
+        self.count = max(int(np.count_nonzero(self.one_way)), 1)
         z = np.zeros
         self.along, self.target, self.cross, self.r, self.bent = z(m), z(m), z(m), z(m), z(m)
         self.de, self.dT, self.dw = z(m), z(m), z(m)
@@ -41,7 +43,7 @@ class Near:
         """Go on where the far field ends."""
         s, tiny = far.s, np.finfo(float).tiny
         gap = far.Y[:, 0] - np.linalg.norm(far.Y[:, 1:], axis=1)
-        tension = np.maximum(far.Z[:, 0], tiny)
+        tension = np.where(s.el.two_way, far.tubes.T, np.maximum(far.Z[:, 0], tiny))
         return cls(s, tension, np.maximum(tension - s.b.f, np.maximum(s.el.stiffness * gap, tiny)))
 
     def step(self) -> float:
@@ -49,14 +51,17 @@ class Near:
         s, b = self.s, self.s.b
         np.subtract(self.w, self.T, out=self.r)
         self.r += b.f
-        mu = path.path_product(self.T, self.w, self.dT, self.dw, 0.0)
-        path.path_stiffness(self.T, self.w, b.k, b.t, b.length, self.along, b.block)
+        two_way = s.el.two_way
+        mu = path.path_product(self.T, self.w, self.dT, self.dw, 0.0, self.count)
+        path.path_stiffness(self.T, self.w, b.k, b.t, b.length, two_way, self.along, b.block)
         solve = s.factor()
         self.cross[:] = 0.0
         turn = self._direction(solve, 0.0, self.r)
-        affine = min(1.0, path.path_step(self.T, self.w, self.dT, self.dw))
+        affine = min(1.0, path.path_step(self.T, self.w, self.dT, self.dw, two_way))
         turning = min(1.0, LARGEST_ROTATION / max(turn, LARGEST_ROTATION))
-        ratio = path.path_product(self.T, self.w, self.dT, self.dw, affine) / mu
+        product = path.path_product(self.T, self.w, self.dT, self.dw, affine, self.count)
+        # Of a net of two-way bars alone the product is zero.
+        ratio = product / mu if mu > 0.0 else 0.0
         least = LEAST_CENTRING_CUT if turning < CUT else LEAST_CENTRING
         path.second_order(s.x, b.dx, self.de, min(affine, turning), s.el, b.length, b.k, self.r, self.bent)
         np.multiply(self.dT, self.dw, out=self.cross)
@@ -64,7 +69,7 @@ class Near:
         turn = self._direction(solve, min(1.0, max(ratio**3, least)) * mu, self.bent)
         turning = LARGEST_ROTATION / max(turn, LARGEST_ROTATION)
         edge = max(TO_EDGE_NEAR, 1.0 - ratio)
-        step: float = min(turning, edge * path.path_step(self.T, self.w, self.dT, self.dw))
+        step: float = min(turning, edge * path.path_step(self.T, self.w, self.dT, self.dw, two_way))
         self.T += step * self.dT
         self.w += step * self.dw
         self._keep_off_the_edge()
@@ -72,12 +77,12 @@ class Near:
         return step
 
     def _keep_off_the_edge(self) -> None:
-        np.maximum(self.T, LEAST_TENSION * self.w, out=self.T)
-        np.maximum(self.w, LEAST_SLACK * self.T, out=self.w)
+        np.maximum(self.T, LEAST_TENSION * self.w, out=self.T, where=self.one_way)
+        np.maximum(self.w, LEAST_SLACK * self.T, out=self.w, where=self.one_way)
 
     def _direction(self, solve: Solve, mu: float, r: Array) -> float:
         s, b = self.s, self.s.b
-        path.path_target(mu, self.T, self.w, r, self.cross, self.target)
+        path.path_target(mu, self.T, self.w, r, self.cross, s.el.two_way, self.target)
         path.path_right_side(b.load, self.T, self.target, s.el, b.t, s.pattern.free, b.total, b.right)
         s.move(solve)
         turn = path.bar_changes(b.dx, self.along, b.k, r, self.target, s.el, b.t, self.de, self.dT, self.dw)

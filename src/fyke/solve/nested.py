@@ -80,12 +80,12 @@ def _carried(system: System, begin: State, fine: Grid, coarse: Grid, result: Res
     last = result.frame()
     position = carry(last.position, coarse.knots, fine.knots, 3)
     position[system.net.fixed] = begin.position[system.net.fixed]
-    # Bars side by side share the tension of the one that stands for them.
-    share = np.sqrt(np.prod(np.array(coarse.meshes) / np.array(fine.meshes)))
+    # Tensions of a result are those of real bars.
     tension = np.empty(system.net.bar_count)
     for which in (0, 1):
         have, want = coarse.directions[which], fine.directions[which]
-        tension[fine.bars[which]] = share * carry(last.tension[coarse.bars[which]], have, want, 1)
+        tension[fine.bars[which]] = carry(last.tension[coarse.bars[which]], have, want, 1)
+    tension *= system.net.bar_multiple
     return replace(
         begin, position=position, velocity=np.zeros_like(position), tension=np.maximum(tension, 0.0)
     )

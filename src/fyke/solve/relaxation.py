@@ -17,13 +17,13 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..forces.bars import add_tension, largest_on_free
+from ..forces.bars import add_tension, borne, largest_on_free
 from ..forces.compiled import OPTIONS
 from . import central_path as path
 from .equilibrium import Equilibrium, typical_tension
 from .linear import SingularMatrixError, Solve
 from .near_field import Near
-from .smooth import smooth_bars
+from .smooth import begin_smooth, smooth_bars
 
 Array = NDArray[np.float64]
 
@@ -54,11 +54,11 @@ NEAR_STEPS, SHORT_NEAR, SHORT_TIMES, LEAST_NEAR = 25, 0.1, 3, 1e-3
 
 
 @njit(**OPTIONS)
-def relaxing_stiffness(p, T, k, t, length, rest_length, along, block):
+def relaxing_stiffness(p, T, k, t, length, el, along, block):
     """Stiffness p k of every bar along itself into along (m,) N/m; with T/L across it into block (m, 3, 3)."""
     for e in range(T.shape[0]):
         along[e] = p[e] * k[e]
-        across = max(T[e], 0.0) / max(length[e], SHORTEST * rest_length[e])
+        across = (T[e] if el.two_way[e] else max(T[e], 0.0)) / max(length[e], SHORTEST * el.rest_length[e])
         for a in range(3):
             for b in range(3):
                 block[e, a, b] = (along[e] - across) * t[e, a] * t[e, b] + (across if a == b else 0.0)
@@ -100,8 +100,7 @@ class Relaxation:
         self.mu = (smoothing * self.scale) ** 2
         # A start that stretches bars does so by mistake.
         f = np.minimum(s.b.f, self.scale)
-        self.T = 0.5 * (f + np.sqrt(f * f + 4.0 * self.mu))
-        self.w = self.T - f
+        self.T, self.w = begin_smooth(f, self.mu, el)
         self.p, self.r, self.c, self.along, self.bent = z(m), z(m), z(m), z(m), z(m)
         self.de, self.dT, self.dw = z(m), z(m), z(m)
         self.drag = knot_drag(s)
@@ -123,7 +122,7 @@ class Relaxation:
         self.w += self.dw
         s.accept(1.0)
         b.total[:] = b.load
-        add_tension(np.maximum(self.T, 0.0), el, b.t, b.total)
+        add_tension(borne(self.T, el), el, b.t, b.total)
         self.force = float(largest_on_free(b.total, el.free)[0])
         speed = float(np.linalg.norm(b.dx)) / self.h
         faster = speed / self.speed if self.speed > 0.0 else 0.0
@@ -137,8 +136,8 @@ class Relaxation:
     def _factor(self) -> Solve:
         """Factorize the tangent with the drag of this step; a singular one shortens the step first."""
         s, b, el = self.s, self.s.b, self.s.el
-        smooth_bars(self.T, self.w, b.f, self.mu, self.p, self.r, self.c)
-        relaxing_stiffness(self.p, self.T, b.k, b.t, b.length, el.rest_length, self.along, b.block)
+        smooth_bars(self.T, self.w, b.f, self.mu, el.two_way, self.p, self.r, self.c)
+        relaxing_stiffness(self.p, self.T, b.k, b.t, b.length, el, self.along, b.block)
         s.assemble()
         add_drag(self.drag / self.h, s.pattern.diagonal, b.data)
         s.factorizations += 1
@@ -167,7 +166,8 @@ class Relaxation:
         if not (self.force < self.ready * self.scale and self.turn < 0.5 * ROTATION and self.h > 1.0):
             return None
         least = LEAST_NEAR * float(np.sqrt(self.mu))
-        return Near(self.s, np.maximum(self.T, least), np.maximum(self.w, least))
+        tension = np.where(self.s.el.two_way, self.T, np.maximum(self.T, least))
+        return Near(self.s, tension, np.maximum(self.w, least))
 
     def go_on(self) -> None:
         """Take up the relaxation after a near field that did not arrive."""

@@ -57,7 +57,8 @@ class Result:
 
     def state(self, index: int = -1) -> State:
         """Return the state at one frame, tensions included; the last by default. A warm start for statics."""
-        return State(float(self.time[index]), self.position[index], self.velocity[index], self.tension[index])
+        pull = self.net.bar_multiple * self.tension[index]
+        return State(float(self.time[index]), self.position[index], self.velocity[index], pull)
 
     def frame(self, index: int = -1) -> Frame:
         """Return one frame; the last by default."""

@@ -10,7 +10,7 @@ from ..forces.compiled import is_compiled
 from ..forces.frame import Frame
 from ..forces.screen_tangents import screen_tangents
 from ..forces.upstream import wake_factors
-from ..system.system import System
+from ..system.system import State, System
 from ..water.waves.kernel import motion_of
 from .auto import Auto
 from .cone import cone_changes
@@ -79,15 +79,16 @@ def solve_case(
     on_progress: Progress | None = None,
     on_checkpoint: Callable[[Checkpoint], None] | None = None,
     resume: tuple[Checkpoint, Sequence[Frame]] | None = None,
+    start: State | None = None,
 ) -> Result:
     """Do what the case's [solve] asks.
 
     on_frame gets every frame as it comes, on_progress a fraction and a text; on_checkpoint and resume are those of
-    simulate and for dynamic cases only.
+    simulate and for dynamic cases only; start is that of solve_static and for static ones.
     """
     chosen = case.solve
     if not isinstance(chosen, DynamicSolve):
-        result = solve_static(system, tolerance=chosen.tolerance, on_progress=on_progress)
+        result = solve_static(system, tolerance=chosen.tolerance, start=start, on_progress=on_progress)
         if on_frame is not None:
             on_frame(result.frame())
         return result

@@ -2,31 +2,45 @@
 
 T >= 0, w = T - g >= 0, T w = 0 with g = f(e) + damping is replaced by the function of Chen & Harker 1993, Kanzow 1996
 and Smale 1987, T + w = sqrt((T - w)^2 + 4 mu), that is T w = mu with both positive at the solution only: Newton may
-pass through anything and starts well from the last step, also when a bar snaps taut.
+pass through anything and starts well from the last step, also when a bar snaps taut. A two-way bar has T = g and w = 0.
 """
 
 from __future__ import annotations
 
 import numpy as np
 from numba import njit
+from numpy.typing import NDArray
 
 from ..forces.bars import law_of_bar
 from ..forces.compiled import OPTIONS
 from ..forces.drag import bar_water_tangents
+from ..system.elements import Elements
+
+Array = NDArray[np.float64]
+
+
+def begin_smooth(f: Array, mu: float, el: Elements) -> tuple[Array, Array]:
+    """Tension and slack (m,) N on T w = mu for forces f (m,) N of the law, so that w = T - f."""
+    T = np.where(el.two_way, f, 0.5 * (f + np.sqrt(f * f + 4.0 * mu)))
+    return T, T - f
 
 
 @njit(**OPTIONS)
-def smooth_bars(T, w, g, mu, p, r, c):
+def smooth_bars(T, w, g, mu, two_way, p, r, c):
     """Share p in [0, 1] of a bar's stiffness that acts, residual r = w - T + g and change c of T without motion (N).
 
     Returns the largest violation of T + w = sqrt((T - w)^2 + 4 mu) and the largest r, in N.
     """
     largest_phi = largest_r = 0.0
     for e in range(T.shape[0]):
+        r[e] = w[e] - T[e] + g[e]
+        if two_way[e]:
+            p[e], c[e] = 1.0, r[e]
+            largest_r = max(largest_r, abs(r[e]))
+            continue
         root = np.sqrt((T[e] - w[e]) ** 2 + 4.0 * mu)
         phi = T[e] + w[e] - root
         p[e] = 0.5 * (1.0 + (T[e] - w[e]) / root)
-        r[e] = w[e] - T[e] + g[e]
         c[e] = p[e] * r[e] - 0.5 * phi
         largest_phi = max(largest_phi, abs(phi))
         largest_r = max(largest_r, abs(r[e]))
@@ -55,7 +69,7 @@ def assemble_step(rel, el, t, length, T, along, c0, c1, cm, mass, symmetric, sta
                 # Blocks (a, a) and (b, b) are symmetric by themselves, (b, a) and (a, b) mirror each other.
                 own[p, q] = 0.5 * (turn[p, q] + turn[q, p]) if symmetric else turn[p, q]
                 other[p, q] = 0.5 * (turn[p, q] - turn[q, p]) if symmetric else turn[p, q]
-        across = max(T[e], 0.0) / length[e]
+        across = (T[e] if el.two_way[e] else max(T[e], 0.0)) / length[e]
         aa, ba, ab, bb = start[e, 0], start[e, 1], start[e, 2], start[e, 3]
         sa, sb = stride[e, 0], stride[e, 1]
         for q in range(3):

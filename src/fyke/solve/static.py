@@ -26,6 +26,7 @@ from .equilibrium import Equilibrium
 from .far_field import Far
 from .held_shelter import by_renewals
 from .linear import Factorizer, SingularMatrixError
+from .modes import stability_warnings
 from .near_field import Near
 from .nested import Nested, nested_start
 from .outcome import Outcome, Verdict, out_of_memory
@@ -69,10 +70,20 @@ def solve_static(
     the real meshes, its message names the others. How it ended is the result's outcome; a solve that fails or is
     stopped by Ctrl-C returns the last good state. Held knots stay where the net has them, whatever the start. Raises
     ValueError for a tolerance that is not above zero, less than one iteration, and a start of another shape or with
-    values that are no numbers. Waves are left out.
+    values that are no numbers. Waves are left out, and so are held knots that swing; ValueError for a steady tow.
     """
     began = time.perf_counter()
-    system = replace(system, waves=None)
+    if system.motion is not None and system.motion.tows:
+        raise ValueError(
+            "a net that is towed has its equilibrium as it is seen from what tows it: "
+            "solve fyke.system.carriage.seen_from_the_carriage(system)"
+        )
+    system = replace(
+        system,
+        waves=None,
+        motion=None,
+        bed=system.bed and replace(system.bed, laid=system.net.positions[:, :2]),
+    )
     begin = _begin(system, tolerance, max_iterations, start)
     nest = _nested(system, begin, tolerance, on_progress)
     begin = nest.start if nest else begin
@@ -112,7 +123,8 @@ def solve_static(
         factorizations=s.factorizations,
         residual=frame.unbalanced_force,
         wall_time=time.perf_counter() - began,
-        warnings=strain_warnings(system.net, [frame]),
+        warnings=strain_warnings(system.net, [frame])
+        + (stability_warnings(system, state.position) if name == "converged" else ()),
     )
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 

@@ -142,7 +142,7 @@ class StepNewton:
         self.evaluations += 1
         self.rel = self.u - self.v
         self.surroundings.load(self.x, self.rel, el, self.t, self.length, self.load)
-        smooth_bars(self.T, self.w, self.f, self.mu, self.p, self.r, self.c)
+        smooth_bars(self.T, self.w, self.f, self.mu, el.two_way, self.p, self.r, self.c)
 
     def _factor(self) -> Solve:
         """Factorize the matrix of the step for accelerations over c0, so that it solves for motions."""

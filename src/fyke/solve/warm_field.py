@@ -11,6 +11,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from ..forces.bars import borne
 from ..forces.compiled import OPTIONS
 from . import central_path as path
 from .equilibrium import Equilibrium, typical_tension
@@ -34,17 +35,17 @@ class Warm:
     """Steps on smoothed tension and slack."""
 
     def __init__(self, s: Equilibrium, tension: Array) -> None:
-        """Begin with the tensions (m,) N of a net like this one, none below zero."""
+        """Begin with the tensions (m,) N of a net like this one, none below zero but those of two-way bars."""
         self.s = s
-        mean = float(tension.mean()) if np.any(tension > 0.0) else typical_tension(s.el, s.b.load)
-        apart = float(np.abs(tension - np.maximum(s.b.f, 0.0)).mean())
+        mean = float(np.abs(tension).mean()) if np.any(tension > 0.0) else typical_tension(s.el, s.b.load)
+        apart = float(np.abs(tension - borne(s.b.f, s.el)).mean())
         smoothing, self.shrink = OWN if apart < CLOSE * mean else CARRIED
         # Of a net without any load or tension the size has only to be a number whose square is one.
         self.size = max(smoothing * mean, float(np.finfo(float).tiny) ** 0.25)
         self.least = LEAST * self.size
         m = len(tension)
         self.T, self.w = np.empty(m), np.empty(m)
-        _start(tension, s.b.f, self.size, self.T, self.w)
+        _start(tension, s.b.f, self.size, s.el.two_way, self.T, self.w)
         z = np.zeros
         self.along, self.p, self.r, self.bent, self.target = z(m), z(m), z(m), z(m), z(m)
         self.de, self.dT, self.dw = z(m), z(m), z(m)
@@ -52,9 +53,9 @@ class Warm:
     def step(self) -> float:
         """Newton step, with the elongation of second order in a second solve; return the length of the step taken."""
         s, b = self.s, self.s.b
-        smooth_bars(self.T, self.w, b.f, self.size**2, self.p, self.r, self.target)
+        smooth_bars(self.T, self.w, b.f, self.size**2, s.el.two_way, self.p, self.r, self.target)
         # A bar on the edge resists turning as if it bore the smoothing's size: slack netting would swing about.
-        _stiffness(self.T, self.p, b.k, self.size, b.t, b.length, self.along, b.block)
+        _stiffness(self.T, self.p, b.k, self.size, b.t, b.length, s.el.two_way, self.along, b.block)
         solve = s.factor()
         turn = self._direction(solve, self.r)
         step = min(1.0, LARGEST_ROTATION / max(turn, LARGEST_ROTATION))
@@ -78,9 +79,12 @@ class Warm:
 
 
 @njit(**OPTIONS)
-def _start(tension, f, size, T, w):
+def _start(tension, f, size, two_way, T, w):
     """T and w (m,) N on T w = size^2: bars that bear tension keep it, the others keep the slack of the law f (N)."""
     for e in range(tension.shape[0]):
+        if two_way[e]:
+            T[e], w[e] = tension[e], 0.0
+            continue
         known = tension[e] if tension[e] > size else min(f[e], 0.0)
         root = np.sqrt(known * known + 4.0 * size * size)
         # Written without the difference of two large numbers.
@@ -90,11 +94,11 @@ def _start(tension, f, size, T, w):
 
 
 @njit(**OPTIONS)
-def _stiffness(T, p, k, least, t, length, along, block):
+def _stiffness(T, p, k, least, t, length, two_way, along, block):
     """Stiffness p k of every bar along itself into along (m,) N/m; with max(T, least)/L across into block (m, 3, 3)."""
     for e in range(T.shape[0]):
         along[e] = p[e] * k[e]
-        across = max(T[e], least) / length[e]
+        across = (T[e] if two_way[e] else max(T[e], least)) / length[e]
         for i in range(3):
             for j in range(3):
                 block[e, i, j] = (along[e] - across) * t[e, i] * t[e, j] + (across if i == j else 0.0)

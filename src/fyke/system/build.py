@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, replace
 
 import numpy as np
@@ -19,10 +19,13 @@ from ..water.laws import Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
+from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
-from .rigging import rigged
+from .motion import Motion, Move
+from .moves import motion_of
+from .rigging import free_rings, rigged
 from .system import Displaced, System
 
 Array = NDArray[np.float64]
@@ -33,10 +36,11 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its netting in the order of the file, then its ropes, floats and sinkers."""
+    """Make the net of a case: all its netting in the order of the file, then rings of their own, then the rest."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
-    return rigged(together([piece.lay(netting, twines[netting.twine]) for piece, netting in made]), case)
+    laid = [piece.lay(netting, twines[netting.twine]) for piece, netting in made]
+    return rigged(together([*laid, *free_rings(case)]), case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -50,7 +54,7 @@ def build_system(net: Net, case: Case) -> System:
         waves=_waves(case),
         surface=True,
     )
-    return replace(system, case_text=case.text)
+    return replace(system, case_text=case.text, motion=motion_of(net, case))
 
 
 def _waves(case: Case) -> Waves | None:
@@ -81,17 +85,20 @@ def make_system(
     coefficients: Coefficients | None = None,
     waves: Waves | None = None,
     surface: bool = False,
+    bed: Bed | None = None,
+    moves: Sequence[Move] = (),
 ) -> System:
     """Freeze a net in water: masses, weights and drag coefficients of every knot and bar.
 
-    surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere.
+    surface: the water ends at z = 0, or at the crest and trough of the waves; otherwise it is everywhere; bed: the
+    ground that knots come to lie on; moves: of held knots, ValueError for free ones.
     """
     w = water or Water()
     c = coefficients or Coefficients()
     area = np.array([t.area for t in net.twines])[net.twine_of_bar]
     density = np.array([t.soaked_density(w.density) for t in net.twines])[net.twine_of_bar]
-    volume = area * net.rest_length
-    knot_volume = np.pi / 6.0 * net.knot_diameter**3
+    volume = net.bar_multiple * area * net.rest_length
+    knot_volume = net.knot_multiple * np.pi / 6.0 * net.knot_diameter**3
     body_mass, body_volume = net.at_knots("mass"), net.at_knots("volume")
     mass = _to_knots(net, density * volume) + net.knot_density * knot_volume + body_mass
     sinking = _to_knots(net, (density - w.density) * volume) + (net.knot_density - w.density) * knot_volume
@@ -100,7 +107,7 @@ def make_system(
     weight = net.load.copy()
     weight[:, 2] -= w.gravity * sinking
     rows, first, end, stiffness = _laws(net)
-    linear = bool(np.all(rows[:, 3] == 0.0) and len(rows) == len(net.twines))
+    linear = bool(np.all(rows[:, 3] == 0.0) and np.all(end - first == 1))
     knot_mass = mass + c.added_mass_knot * w.density * knot_volume
     damping = _retardation(net, ringing(net, stiffness, knot_mass))
     drag, drag_laws = _drag(net, w, c)
@@ -119,6 +126,7 @@ def make_system(
         knot_mass=knot_mass,
         weight=weight,
         free=(~net.fixed).astype(float),
+        two_way=net.two_way,
         **drag,
     )
     flow = current if not isinstance(current, tuple) else UniformCurrent(current)
@@ -134,13 +142,16 @@ def make_system(
         waves=waves,
         surface=surface or waves is not None,
         faces=faces_of(net) if c.screens or c.wake or c.twines else None,
-        sources=_sources(net, c, damping, waves),
+        bed=bed,
+        motion=Motion(net, moves) if moves else None,
+        sources=(*_sources(net, c, damping, waves), *((bed.told,) if bed else ())),
     )
 
 
 def _drag(net: Net, w: Water, c: Coefficients) -> tuple[dict[str, Array], DragLaws | None]:
     """Fields of Elements that say how the water drags, and the laws that change them."""
-    scale, disc = 0.25 * w.density * net.bar_diameter, 0.5 * w.density * np.pi / 4.0 * net.knot_diameter**2
+    scale = 0.25 * w.density * net.bar_multiple * net.bar_diameter
+    disc = 0.5 * w.density * net.knot_multiple * np.pi / 4.0 * net.knot_diameter**2
     if c.screens is not None:
         for panel in net.panels:
             scale[panel.bars] = 0.0
@@ -284,14 +295,21 @@ def _to_knots(net: Net, per_bar: Array) -> Array:
 
 
 def _laws(net: Net) -> tuple[Array, NDArray[np.int32], NDArray[np.int32], Array]:
-    """Rows of all twines' laws, first and end row of every bar, and stiffness (N/m) of every bar."""
-    tables = [t.law.rows(t.diameter) for t in net.twines]
-    end = np.cumsum([len(t) for t in tables])
+    """Rows of all laws, first and end row of every bar, and stiffness (N/m) of every bar.
+
+    One law for every twine and every number of bars side by side, whose tensions add up.
+    """
+    kinds, which = np.unique(
+        np.column_stack([net.twine_of_bar, net.bar_multiple]), axis=0, return_inverse=True
+    )
+    which = which.ravel()
+    own = [t.law.rows(t.diameter) for t in net.twines]
+    tables = [own[int(twine)] * np.array([1.0, many, many, many, 1.0]) for twine, many in kinds]
+    end = np.cumsum([len(t) for t in tables], dtype=np.int64)
     first = end - [len(t) for t in tables]
     secant = np.array([_tension(t, REFERENCE_STRAIN) / REFERENCE_STRAIN for t in tables])
-    which = net.twine_of_bar
     return (
-        np.concatenate(tables),
+        np.concatenate([np.empty((0, 5)), *tables]),
         first[which].astype(np.int32),
         end[which].astype(np.int32),
         secant[which] / net.rest_length,

@@ -25,7 +25,7 @@ class Elements(NamedTuple):
     1/2 rho C_D pi/4 d_k^2; knot_mass: (n,) kg, isotropic: half of each bar, the knot and its added mass; weight: (n, 3)
     N, weight less buoyancy and dead load; free: (n,) 1 where free, 0 where held.
     drag_slopes: (4, m), knot_slopes: (n,), where normal_drag, tangential_drag and knot_drag are those of one moment:
-    their slopes, see forces.laws; else (4, 0) and (0,).
+    their slopes, see forces.laws; else (4, 0) and (0,). two_way: (m,) whether a bar pushes, too, as a tube does.
     """
 
     knot_a: NDArray[np.uint32]
@@ -47,6 +47,7 @@ class Elements(NamedTuple):
     free: Array
     drag_slopes: Array
     knot_slopes: Array
+    two_way: NDArray[np.bool_]
 
 
 class DragLaws(NamedTuple):

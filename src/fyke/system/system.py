@@ -11,8 +11,10 @@ from ..netting.faces import Faces
 from ..netting.net import Net
 from ..water.current import Current
 from ..water.waves import Waves
+from .bed import Bed
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
+from .motion import Motion
 
 Array = NDArray[np.float64]
 
@@ -22,7 +24,7 @@ class State:
     """Time (s), position (n, 3) m, velocity (n, 3) m/s.
 
     tension: (m,) N where a method knows it better than the elastic law does from positions that it does not resolve to
-    the nanometre; None to take the law.
+    the nanometre, of all real bars that a bar stands for together; None to take the law.
     """
 
     time: float
@@ -45,7 +47,8 @@ class System:
 
     weight_in_water: weight less buoyancy of bars and knots, N, positive when it sinks; drag_laws: None where all
     coefficients of drag are constant; surface: what rises above the surface is dry, else water is everywhere; faces:
-    the meshes of its netting where screens or shelter ask for them, else None; sources: one line for each law, with
+    the meshes of its netting where screens or shelter ask for them, else None; bed: the ground that bears knots, None
+    for water without one; motion: of held knots that move, None where all rest; sources: one line for each law, with
     what it says and where it comes from; case_text: the case file behind it, "" when made in Python.
     """
 
@@ -60,9 +63,14 @@ class System:
     waves: Waves | None = None
     surface: bool = False
     faces: Faces | None = None
+    bed: Bed | None = None
+    motion: Motion | None = None
     sources: tuple[str, ...] = ()
     case_text: str = ""
 
     def at_rest(self) -> State:
-        """Return the state that the net was built in, at rest at time 0."""
-        return State(0.0, self.net.positions.copy(), np.zeros_like(self.net.positions))
+        """Return the state that the net was built in, at time 0, at rest but for held knots that move."""
+        state = State(0.0, self.net.positions.copy(), np.zeros_like(self.net.positions))
+        if self.motion is not None:
+            self.motion.carry(state.position, state.velocity, 0.0)
+        return state

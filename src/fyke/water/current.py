@@ -66,3 +66,25 @@ class RampedCurrent:
 def at_full_strength(current: Current) -> Current:
     """Return the current without its ramp, for an equilibrium, which has no beginning."""
     return current.full if isinstance(current, RampedCurrent) else current
+
+
+@dataclass(frozen=True)
+class RelativeCurrent:
+    """A current as it is seen from something that goes at a velocity (3,) m/s, in places that go with it."""
+
+    full: Current
+    tow: tuple[float, float, float]
+
+    @property
+    def steady(self) -> bool:
+        """Whether the velocity is the same at all times."""
+        return self.full.steady
+
+    @property
+    def uniform(self) -> bool:
+        """Whether the velocity is the same in all places."""
+        return self.full.uniform
+
+    def velocity(self, points: Array, time: float) -> Array:
+        """Velocity at every point, (n, 3) m/s."""
+        return np.ascontiguousarray(self.full.velocity(points, time) - np.array(self.tow))

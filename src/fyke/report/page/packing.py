@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...solve.result import Result
-from ..parts import Bars, Knots, Outline, parts_of
+from ..carried import parts_in_time
+from ..parts import Bars, Knots, Outline
 from ..quantities import BarQuantity, quantities
 from ..space import AZIMUTH, ELEVATION
 
@@ -68,7 +69,7 @@ def scene(result: Result) -> dict[str, Any]:
     kept = kept_frames(result)
     net = result.net
     shape = result.position[kept]
-    points = [shape.reshape(-1, 3), *(p.points for p in parts_of(net) if isinstance(p, Outline))]
+    points = [shape.reshape(-1, 3), *(p.points for p in parts_in_time(result) if isinstance(p, Outline))]
     low, high = np.concatenate(points).min(axis=0), np.concatenate(points).max(axis=0)
     return {
         "time": result.time[kept].tolist(),
@@ -79,7 +80,7 @@ def scene(result: Result) -> dict[str, Any]:
         "box": [low.tolist(), high.tolist()],
         "position": Packed.of(shape, low, high).as_json(),
         "quantities": [_quantity(result, kept, q) for q in quantities(result)],
-        "parts": [_part(part) for part in parts_of(net)],
+        "parts": [_part(part) for part in parts_in_time(result)],
         "eye": [AZIMUTH, ELEVATION],
     }
 
@@ -98,6 +99,7 @@ def _part(part: Bars | Knots | Outline) -> dict[str, Any]:
         return about | {"kind": "outline", "points": part.points.tolist(), "width": part.width}
     about["own"] = part.own
     if isinstance(part, Bars):
-        return about | {"kind": "bars", "bars": deflated(part.bars.astype(np.uint32)), "width": part.width}
+        about |= {"kind": "bars", "bars": deflated(part.bars.astype(np.uint32)), "width": part.width}
+        return about | {"diameter": part.diameter}
     knots = deflated(part.knots.astype(np.uint32))
     return about | {"kind": "knots", "knots": knots, "marker": part.marker, "size": part.size}

@@ -27,6 +27,7 @@ from ..figures import OPTIONS, figures_of
 from ..histories import curves
 from ..style import SINGLE_COLUMN, styled
 from . import words
+from .loads import load_columns, load_table
 from .packing import STEPS, deflated, kept_frames, scene
 
 Array = NDArray[np.float64]
@@ -96,6 +97,10 @@ def render(
         panels=[(p.name, words.panel_rows(result, p)) for p in result.net.panels],
         part_columns=words.PART_COLUMNS,
         part_table=words.part_table(figures),
+        ring_columns=words.RING_COLUMNS,
+        ring_table=words.ring_table(figures),
+        load_columns=load_columns(figures),
+        load_table=load_table(figures),
         supports=words.support_rows(result, origin.system),
         comparison=comparison,
         pictures=_pictures(result, origin, comparison),

@@ -80,6 +80,27 @@
       }
       return { x, y, z, c };
     };
+    /* Bars as tubes of their true thickness, which reach into one another where they turn. */
+    const SIDES = 8;
+    const solid = (which, frame, radius) => {
+      const x = [], y = [], z = [], i = [], j = [], k = [];
+      for (const bar of which) {
+        const [a, b] = [0, 1].map((end) => [0, 1, 2].map((axis) => at(frame, bars[2 * bar + end], axis)));
+        const along = b.map((v, n) => v - a[n]), size = Math.hypot(...along) || 1, t = along.map((v) => v / size);
+        const least = t.map(Math.abs).indexOf(Math.min(...t.map(Math.abs))), e = [0, 1, 2].map((n) => (n === least ? 1 : 0));
+        const cross = (p, q) => [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+        const right = cross(t, e), r = Math.hypot(...right), u = right.map((v) => v / r), w = cross(t, u), start = x.length;
+        for (const end of [a, b]) for (let s = 0; s < SIDES; s++) {
+          const c = radius * Math.cos(2 * Math.PI * s / SIDES), d = radius * Math.sin(2 * Math.PI * s / SIDES);
+          x.push(end[0] + c * u[0] + d * w[0]); y.push(end[1] + c * u[1] + d * w[1]); z.push(end[2] + c * u[2] + d * w[2]);
+        }
+        for (let s = 0; s < SIDES; s++) {
+          const n = (s + 1) % SIDES;
+          i.push(start + s, start + n); j.push(start + n, start + SIDES + n); k.push(start + SIDES + s, start + SIDES + s);
+        }
+      }
+      return { x, y, z, i, j, k };
+    };
     const coloured = scene.parts.filter((part) => part.kind === "bars" && !part.colour);
     const largest = (frame, q) => {
       let top = 0;
@@ -108,6 +129,12 @@
           const taut = part.colour ? every : every.filter((bar) => pull(bar) > 0);
           const slack = part.colour ? [] : every.filter((bar) => !(pull(bar) > 0));
           const t = lines(taut, frame, q), width = (many ? 2 : 5) * part.width;
+          if (part.diameter) {
+            made.push({ type: "mesh3d", name: part.name, ...solid(every, frame, part.diameter / 2), color: part.colour, hoverinfo: "skip",
+              flatshading: false, lighting: { ambient: 0.7, diffuse: 0.5, specular: 0.1 }, showlegend: first(part.name) });
+            made.push(middles(every, frame));
+            continue;
+          }
           const line = part.colour ? { color: part.colour, width } : { color: t.c, colorscale: scale(), cmin: 0, cmax: top, width,
             showscale: !scaled, colorbar: { title: { text: `${about.name} (${about.unit})`, side: "right" }, thickness: 12, len: 0.7, x: 1, xanchor: "right" } };
           scaled = scaled || !part.colour;

@@ -132,11 +132,17 @@ def panel_rows(result: Result, panel: Panel) -> list[Row]:
     twine = next(t for t in net.twines if t.name == panel.twine)
     tension = result.tension[-1][np.unique(panel.bars)]
     knots = np.unique(panel.knots)
-    across, down = panel.meshes
+    across, down = panel.real_meshes
+    few, rows = panel.meshes
     e1, e2 = measures.hanging_ratios
     material = f"{twine.material}, " if twine.material else ""
     return [
         ("Netting", f"{panel.mesh}, {across} × {down} meshes", None),
+        *(
+            [("Laid with", f"{few} × {rows}, one for {across / few:.4g} × {down / rows:.4g}", None)]
+            if panel.grouped_from
+            else []
+        ),
         (
             "Frame" if panel.shape == "panel" else f"{panel.shape.capitalize()}, laid flat",
             f"{panel.size[0]:.4g} m × {panel.size[1]:.4g} m",
@@ -196,6 +202,42 @@ def _part_row(part: dict[str, Any]) -> list[tuple[str, Any]]:
         (number(part["max_tension"]) + f", bar {bar}" if bar else "–", part["max_tension"]),
         ("–" if used is None else number(100.0 * used, "%", 3), used),
         (str(part["slack_bars"]) if part["bars"] else "–", part["slack_bars"]),
+    ]
+
+
+RING_COLUMNS = (
+    "Ring or collar",
+    "Weight, buoyancy (N)",
+    "Draught (m)",
+    "Axial force (N)",
+    "Bending moment (N m)",
+    "Stress (MPa)",
+    "Of yield",
+    "Ovality",
+    "From netting (N)",
+    "From lines (N)",
+)
+
+
+def ring_table(figures: dict[str, Any]) -> list[list[tuple[str, Any]]]:
+    """Text and exact value of every cell under RING_COLUMNS, a row for each ring and collar; empty without any."""
+    return [_ring_row(ring) for ring in figures.get("rings", ())]
+
+
+def _ring_row(ring: dict[str, Any]) -> list[tuple[str, Any]]:
+    deep = [ring[f"draught_{which}"] for which in ("least", "most")]
+    many = f", {ring['tubes']} tubes" if ring["tubes"] > 1 else ""
+    stress, used = ring["stress"], ring["utilisation"]
+    return [
+        (f"{ring['kind']} {ring['name']}".rstrip() + many, None),
+        (f"{number(ring['weight'])}, {number(ring['buoyancy'])}", ring["buoyancy"]),
+        ("–" if deep[0] is None else f"{number(deep[0], digits=3)} to {number(deep[1], digits=3)}", deep[1]),
+        (number(ring["axial_force"]), ring["axial_force"]),
+        (number(ring["bending_moment"]), ring["bending_moment"]),
+        ("–" if stress is None else number(1e-6 * stress, digits=3), stress),
+        ("–" if used is None else number(100.0 * used, "%", 3), used),
+        ("–" if ring["ovality"] is None else f"{ring['ovality']:.4f}", ring["ovality"]),
+        *((number(math.hypot(*ring[key])), math.hypot(*ring[key])) for key in ("from_netting", "from_lines")),
     ]
 
 

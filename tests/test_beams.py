@@ -1,0 +1,430 @@
+"""Tubes as beams: bars that push and bend, against exact solutions of the elastic rod."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
+
+import fyke
+from fyke.forces.bending import Bending
+from fyke.netting.lines import LinePiece, with_line
+from fyke.netting.rigging import with_rope
+from fyke.netting.together import together
+from fyke.netting.tubes import Tube, ring
+from fyke.results.derive import summary
+from fyke.solve.pattern import Pattern
+from reference import NO_FORCES, NO_WATER
+
+STIFFNESS, LENGTH, MASS = 3.0, 2.0, 0.7  # N m2, m, kg/m of all beams here
+DIAMETER = 0.02
+
+
+def tube(axial=1e7, mass=MASS):
+    """A tube of bending stiffness STIFFNESS and axial stiffness (N)."""
+    area = np.pi / 4.0 * DIAMETER**2
+    return fyke.Twine(
+        "tube",
+        mass / area,
+        DIAMETER,
+        fyke.LinearLaw(axial / area),
+        compression=True,
+        bending_stiffness=STIFFNESS,
+    )
+
+
+def in_vacuum(net):
+    return fyke.make_system(net, water=NO_WATER, coefficients=NO_FORCES)
+
+
+def cantilever(n, direction=(1.0, 0.0, 0.0), load=(0.0, 0.0, 0.0), kind=None):
+    """A beam of n bars whose clamped end is one bar more, between two held knots."""
+    h = LENGTH / n
+    points = np.arange(-1, n + 1)[:, None] * h * np.array(direction)
+    loads = np.zeros((n + 2, 3))
+    loads[-1] = load
+    bare = fyke.line(kind or tube(), points, h, fixed=(0, 1), load=loads)
+    bare = replace(
+        bare, bars=bare.bars[:0], rest_length=bare.rest_length[:0], twine_of_bar=bare.twine_of_bar[:0]
+    )
+    return in_vacuum(with_rope(bare, np.arange(n + 2), kind or tube(), name="beam"))
+
+
+def shape(system, tolerance=1e-8, **options):
+    result = fyke.solve_static(system, tolerance=tolerance, **options)
+    assert result.outcome.ok, result.outcome
+    return result.position[-1]
+
+
+def order(errors):
+    """Order of convergence from the errors of meshes each twice as fine as the last."""
+    return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
+
+
+# Bending of three knots.
+
+
+def energy(x, b):
+    """2 B tan^2(phi/2) of three knots x (3, 3), by the angle; complex numbers carry slopes."""
+    one, other = x[1] - x[0], x[2] - x[1]
+    cosine = (one @ other) / np.sqrt((one @ one) * (other @ other))
+    return 2.0 * b * np.tan(0.5 * np.arccos(cosine)) ** 2
+
+
+@pytest.fixture
+def bent():
+    """Two places of bending in a row of four knots in space, far from straight, of unequal bars."""
+    x = np.array([[0.0, 0.0, 0.0], [1.0, 0.3, -0.2], [1.4, 1.2, 0.5], [0.7, 1.5, 1.6]])
+    return Bending(np.array([[0, 1, 2], [1, 2, 3]]), np.array([2.0, 0.7])), x
+
+
+def test_force_of_bending_is_the_slope_of_its_energy(bent):
+    bending, x = bent
+    force = np.zeros((4, 3))
+    bending.see(x, x, 0.0)
+    bending.add_load(force)
+    for i in range(4):
+        for q in range(3):
+            moved = x.astype(complex)
+            moved[i, q] += 1e-30j
+            slope = sum(energy(moved[k : k + 3], b) for k, b in enumerate(bending.stiffness)).imag / 1e-30
+            assert force[i, q] == pytest.approx(-slope, rel=1e-12, abs=1e-13)
+    assert bending.energy(x) == pytest.approx(sum(energy(x[k : k + 3], b) for k, b in enumerate((2.0, 0.7))))
+    assert force.sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-14)
+    assert np.cross(x, force).sum(axis=0) == pytest.approx(np.zeros(3), abs=1e-14)
+
+
+def test_tangent_of_bending_is_the_slope_of_its_force(bent):
+    bending, x = bent
+    el = in_vacuum(fyke.line(tube(), x, 1.0, fixed=())).elements
+    pattern = Pattern.of(el, (bending.groups,))
+    data = np.zeros(len(pattern.indices))
+    bending.see(x, x, 0.0)
+    bending.assemble(2.0, 5.0, pattern.groups[0], symmetric=False, data=data)
+    tangent = pattern.matrix(data).toarray()
+    step = 1e-6
+    for column in range(12):
+        forces = []
+        for sign in (1.0, -1.0):
+            moved, out = x.copy(), np.zeros((4, 3))
+            moved.flat[column] += sign * step
+            bending.see(moved, moved, 0.0)
+            bending.add_load(out)
+            forces.append(out.ravel())
+        slope = -(forces[0] - forces[1]) / (2.0 * step)
+        assert tangent[:, column] == pytest.approx(2.0 * slope, abs=2e-8)
+
+
+def test_half_of_each_bar_bends():
+    """Bars of 1 and 3 m with a moment at the knot between them: angle M (l1 + l2)/(2 EI), small."""
+    net = fyke.line(tube(), [[0, 0, 0], [1, 0, 0], [4, 0, 0]], [1.0, 3.0], fixed=())
+    net = replace(net, bars=net.bars[:0], rest_length=net.rest_length[:0], twine_of_bar=net.twine_of_bar[:0])
+    bending = Bending.of(with_rope(net, [0, 1, 2], tube(), name="t"))
+    angle = 1e-4
+    x = np.array([[0, 0, 0], [1, 0, 0], [1 + 3 * np.cos(angle), 0, 3 * np.sin(angle)]])
+    assert bending.moments(x) == pytest.approx([STIFFNESS * angle / 2.0], rel=1e-7)
+
+
+# Statics.
+
+
+def test_tip_of_a_cantilever_goes_down_by_p_l3_over_3_ei():
+    exact, errors = 1e-3 * LENGTH**3 / (3.0 * STIFFNESS), []
+    for n in (5, 10, 20, 40):
+        down = -shape(cantilever(n, load=(0.0, 0.0, -1e-3)))[-1, 2]
+        errors.append(abs(down / exact - 1.0))
+    assert errors[-1] < 5e-4
+    assert order(errors) == pytest.approx([2.0, 2.0, 2.0], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("load", "down", "forward"), [(1.0, 0.30172, 0.05643), (2.0, 0.49346, 0.16064), (10.0, 0.81061, 0.55500)]
+)
+def test_large_deflection_of_a_cantilever(load, down, forward):
+    """K.E. Bisshopp & D.C. Drucker, Large deflection of cantilever beams, Q. Appl. Math. 3, 272-275, 1945.
+
+    Tip of a beam under a dead load P, P L^2/EI as given, by elliptic integrals as other tables repeat them.
+    """
+    force = load * STIFFNESS / LENGTH**2
+    ends = [shape(cantilever(n, load=(0.0, 0.0, -force)))[-1] / LENGTH for n in (30, 60)]
+    found = ends[1] + (ends[1] - ends[0]) / 3.0
+    assert [-found[2], 1.0 - found[0]] == pytest.approx([down, forward], abs=2e-5)
+
+
+def test_a_strut_bears_less_than_its_buckling_load_straight():
+    load = 0.9 * np.pi**2 * STIFFNESS / (4.0 * LENGTH**2)
+    result = fyke.solve_static(cantilever(20, (0.0, 0.0, 1.0), (0.0, 0.0, -load)), tolerance=1e-9)
+    assert result.outcome.ok
+    assert result.position[-1][:, :2] == pytest.approx(np.zeros((22, 2)), abs=1e-12)
+    assert result.frame().tension[1:] == pytest.approx(np.full(20, -load), abs=1e-7)
+    assert result.frame().support_reaction == pytest.approx([0.0, 0.0, -load], abs=1e-7)
+
+
+@pytest.mark.parametrize("angle", [60.0, 90.0])
+def test_a_strut_over_its_buckling_load_bows_out_as_the_elastica(angle):
+    """With k = sin(alpha/2), alpha the slope of the tip: L sqrt(P/EI) = K(k), x = 2 E/K - 1, y = 2 k/K over L."""
+    k = np.sin(np.radians(angle) / 2.0)
+    whole, second = ellipk(k * k), ellipe(k * k)
+    load = STIFFNESS * (whole / LENGTH) ** 2
+    ends = []
+    for n in (40, 80):
+        system = cantilever(n, (0.0, 0.0, 1.0), (0.0, 0.0, -load))
+        start = system.at_rest()
+        # An arc of the same length that turns by alpha.
+        along = np.maximum(start.position[:, 2], 0.0)
+        turn = np.radians(angle) * along / LENGTH
+        start.position[:, 0] = LENGTH / np.radians(angle) * (1.0 - np.cos(turn))
+        start.position[2:, 2] = LENGTH / np.radians(angle) * np.sin(turn[2:])
+        ends.append(np.abs(shape(system, start=start)[-1]) / LENGTH)
+    found = ends[1] + (ends[1] - ends[0]) / 3.0
+    assert found == pytest.approx([2.0 * k / whole, 0.0, 2.0 * second / whole - 1.0], abs=1e-4)
+
+
+def hoop(n, radius, pull, stretch):
+    """A ring in the plane x-z, held in its lowest knot, pulled up by a force and sideways apart by another (N)."""
+    net = ring(tube(axial=1e7), diameter=2.0 * radius, knots=n)
+    x = net.positions
+    x = np.column_stack([x[:, 0], np.zeros(n), x[:, 1]])
+    load, fixed = np.zeros((n, 3)), np.zeros(n, dtype=bool)
+    load[n // 4, 2], load[0, 0], load[n // 2, 0] = pull, stretch, -stretch
+    fixed[3 * n // 4] = True
+    return in_vacuum(replace(net, positions=x, load=load, fixed=fixed))
+
+
+def test_a_ring_pulled_at_opposite_points():
+    """By the theory of thin rings, diameters change by (pi/4 - 2/pi) and -(2/pi - 1/2) times P R^3/EI."""
+    radius, along, across = 1.5, np.pi / 4.0 - 2.0 / np.pi, 2.0 / np.pi - 0.5
+    unit = 1e-4 * STIFFNESS / radius**2
+    errors = []
+    for n in (24, 48, 96):
+        system = hoop(n, radius, 2.0 * unit, unit)
+        x = shape(system, tolerance=1e-9)
+        change = x - system.net.positions
+        high, wide = change[n // 4, 2] - change[3 * n // 4, 2], change[0, 0] - change[n // 2, 0]
+        exact = 1e-4 * radius * np.array([2.0 * along - across, along - 2.0 * across])
+        errors.append(np.abs(np.array([high, wide]) / exact - 1.0))
+    assert errors[-1] == pytest.approx([0.0, 0.0], abs=5e-3)
+    assert np.log2(np.array(errors[0]) / errors[1]) == pytest.approx([2.0, 2.0], abs=0.3)
+
+
+def test_a_strut_between_strings_pushes_them_apart():
+    """A straight tube across a taut string square: 45 degrees everywhere, so each string pulls F/sqrt 2."""
+    corners = [[0, 0, 1], [-1, 0, 0], [1, 0, 0], [0, 0, -1]]
+    string = fyke.Twine("string", 1000.0, 1e-3, fyke.LinearLaw(1e4 / (np.pi / 4.0 * 1e-6)))
+    load = np.zeros((4, 3))
+    load[3, 2] = -10.0
+    net = fyke.line(string, corners, 1.0, fixed=(0,), load=load)
+    net = replace(net, bars=net.bars[:0], rest_length=net.rest_length[:0], twine_of_bar=net.twine_of_bar[:0])
+    net = with_rope(net, [0, 1, 3], string, name="left")
+    net = with_rope(net, [0, 2, 3], string, name="right")
+    result = fyke.solve_static(
+        in_vacuum(with_rope(net, [1, 2], tube(axial=1e9), name="strut")), tolerance=1e-8
+    )
+    assert result.outcome.ok, result.outcome
+    x, tension = result.position[-1], result.frame().tension
+    half, drop = x[2, 0], 0.5 * (x[0, 2] - x[3, 2])
+    assert tension[4] == pytest.approx(-10.0 * half / drop, rel=1e-7)
+    assert tension[:4] == pytest.approx(np.full(4, 5.0 * np.hypot(half, drop) / drop), rel=1e-7)
+    figures = summary(result)
+    assert figures["slack_bars"] == 0
+    assert figures["max_tension_bar"] < 4
+
+
+def test_a_warm_start_with_tubes_is_there_at_once():
+    system = cantilever(20, load=(0.3, 0.0, -1.0))
+    first = fyke.solve_static(system, tolerance=1e-8)
+    again = fyke.solve_static(system, tolerance=1e-8, start=first.state())
+    assert again.outcome.ok and again.outcome.iterations <= 2
+    assert again.position[-1] == pytest.approx(first.position[-1], abs=1e-9)
+
+
+def test_net_with_tubes_is_refused_by_explicit_steppers():
+    system = cantilever(4, load=(0.0, 0.0, -1e-3))
+    for stepper in (fyke.Verner(), fyke.Symplectic()):
+        with pytest.raises(ValueError, match="tubes need an implicit method"):
+            fyke.simulate(system, duration=0.1, stepper=stepper)
+    assert fyke.simulate(system, duration=0.01, every=0.01).outcome.ok
+
+
+# Vibration.
+
+
+def test_natural_frequencies_of_a_cantilever():
+    """omega = (1.87510, 4.69409)^2 / L^2 sqrt(EI/m), each twice: up and sideways."""
+    roots, unit, errors = np.array([1.8751041, 4.6940911]), np.sqrt(STIFFNESS / MASS) / LENGTH**2, []
+    for n in (8, 16, 32):
+        system = cantilever(n)
+        found = fyke.modes(system, system.net.positions, count=4).frequency
+        assert found[::2] == pytest.approx(found[1::2], rel=1e-6)
+        errors.append(np.abs(found[::2] / (roots**2 * unit) - 1.0))
+    assert errors[-1] == pytest.approx([0.0, 0.0], abs=5e-3)
+    assert np.log2(errors[0] / errors[2]) / 2.0 == pytest.approx([2.0, 2.0], abs=0.2)
+
+
+def test_a_strut_at_its_buckling_load_has_no_stiffness_left():
+    """The square of the lowest frequency falls with the load and vanishes at pi^2 EI/(4 L^2)."""
+    critical, errors = np.pi**2 * STIFFNESS / (4.0 * LENGTH**2), []
+    for n in (8, 16, 32):
+        squares = []
+        for part in (0.98, 0.99):
+            system = cantilever(n, (0.0, 0.0, 1.0), (0.0, 0.0, -part * critical))
+            result = fyke.solve_static(system, tolerance=1e-9)
+            squares.append(fyke.modes(system, result.position[-1], count=1).frequency[0] ** 2)
+        errors.append(abs(0.99 + 0.01 * squares[1] / (squares[0] - squares[1]) - 1.0))
+    assert errors[-1] < 1e-3
+    assert order(errors) == pytest.approx([2.0, 2.0], abs=0.2)
+
+
+def test_modes_say_that_a_strut_beyond_its_buckling_load_does_not_stay():
+    critical = np.pi**2 * STIFFNESS / (4.0 * LENGTH**2)
+    system = cantilever(16, (0.0, 0.0, 1.0), (0.0, 0.0, -1.2 * critical))
+    straight = system.net.positions.copy()
+    straight[:, 2] *= 1.0 - 1.2 * critical / 1e7
+    with pytest.raises(ValueError, match="not stable"):
+        fyke.modes(system, straight, count=2)
+    # Statics finds this equilibrium, since nothing pushes it aside, and says what it is.
+    result = fyke.solve_static(system, tolerance=1e-8)
+    assert result.outcome.ok and "not stable" in result.outcome.warnings[0]
+    below = cantilever(16, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical))
+    assert fyke.solve_static(below, tolerance=1e-8).outcome.warnings == ()
+
+
+def test_a_ring_swings_in_its_plane():
+    """Slowest inextensible mode, two waves around: omega^2 = 36/5 EI/(m R^4), J.W.S. Rayleigh, Theory of Sound, 233."""
+    radius, errors = 0.8, []
+    for n in (16, 32):
+        net = ring(tube(), diameter=2.0 * radius, knots=n)
+        soft = fyke.Twine("soft", 1e-3, 1e-3, fyke.LinearLaw(1e-5 / (np.pi / 4.0 * 1e-6)))
+        places = [
+            [2.0 * radius * np.cos(a), 2.0 * radius * np.sin(a), 0.0] for a in np.pi / 2.0 * np.arange(4)
+        ]
+        anchors = fyke.line(soft, places, 1.0, fixed=(0, 1, 2, 3))
+        anchors = replace(
+            anchors,
+            bars=anchors.bars[:0],
+            rest_length=anchors.rest_length[:0],
+            twine_of_bar=anchors.twine_of_bar[:0],
+        )
+        held = together([net, anchors])
+        for k in range(4):
+            held = with_rope(held, [k * n // 4, n + k], soft, length=0.5 * radius, name=f"t{k}")
+        modes = fyke.modes(in_vacuum(held), held.positions, count=14)
+        level = np.einsum("kiq,kiq->k", modes.shape[:, :, :2], modes.shape[:, :, :2])
+        flat = level > 0.99 * np.einsum("kiq,kiq->k", modes.shape, modes.shape)
+        unit = np.sqrt(STIFFNESS / MASS) / radius**2
+        found = modes.frequency[flat & (modes.frequency > 0.5 * unit)][:2] / unit
+        errors.append(np.abs(found / np.sqrt(36.0 / 5.0) - 1.0).max())
+    assert errors[-1] < 0.015
+    assert order(errors) == pytest.approx([2.0], abs=0.2)
+
+
+@pytest.mark.parametrize("stepper", [fyke.Implicit(rtol=0.0, atol=2e-8), fyke.Newmark(rtol=0.0, atol=2e-8)])
+def test_a_free_swinging_beam_keeps_its_period(stepper):
+    system = cantilever(12)
+    modes = fyke.modes(system, system.net.positions, count=2)
+    period = modes.period[0]
+    start = system.at_rest()
+    up = modes.shape[0] if abs(modes.shape[0, -1, 2]) > 0.5 else modes.shape[1]
+    start.velocity[:] = 1e-3 * up
+    # Nothing but the mode itself, small: its motion is 1e-3 sin(omega t)/omega.
+    result = fyke.simulate(system, duration=2.25 * period, every=0.05 * period, stepper=stepper, start=start)
+    assert result.outcome.ok, result.outcome
+    tip = result.position[:, -1] @ up[-1]
+    exact = tip[0] + 1e-3 * (up[-1] @ up[-1]) * np.sin(modes.frequency[0] * result.time) / modes.frequency[0]
+    assert tip == pytest.approx(exact, abs=0.02 * np.ptp(exact))
+
+
+# Afloat.
+
+
+def afloat(n, part, radius=2.0, diameter=0.1, current=0.0, stiffness=1e5):
+    """A level ring of a density part of the water's, held in its place by four soft threads on the surface."""
+    area = np.pi / 4.0 * diameter**2
+    law = fyke.LinearLaw(1e7 / area)
+    pipe = fyke.Twine("pipe", part * 1000.0, diameter, law, compression=True, bending_stiffness=stiffness)
+    net = ring(pipe, diameter=2.0 * radius, knots=n)
+    soft = fyke.Twine("soft", 1000.0, 1e-6, fyke.LinearLaw(1.0 / (np.pi / 4.0 * 1e-12)))
+    for k in range(4):
+        angle = 0.5 * np.pi * k
+        anchor = (3.0 * radius * np.cos(angle), 3.0 * radius * np.sin(angle), 0.0)
+        net = with_line(
+            net, anchor, k * n // 4, [LinePiece(soft, 1.8 * radius, 1)], name=f"m{k}", held=(True, False)
+        )
+    water = fyke.Coefficients(knots=fyke.ConstantKnot(0.0))
+    return fyke.make_system(net, current=(current, 0.0, 0.0), coefficients=water, surface=True)
+
+
+def deep(part):
+    """Radii that the middle of a level tube lies under water when this part of its circle is wet."""
+    return brentq(
+        lambda s: 0.5 + (s * np.sqrt(1 - s * s) + np.arcsin(s)) / np.pi - part, -1.0, 1.0, xtol=1e-14
+    )
+
+
+@pytest.mark.parametrize("part", [0.2, 0.5, 0.9])
+def test_a_floating_ring_dives_by_the_segment_of_its_density(part):
+    result = fyke.solve_static(afloat(16, part), tolerance=1e-6)
+    assert result.outcome.ok and result.outcome.iterations < 20, result.outcome
+    assert result.position[-1][:16, 2] == pytest.approx(np.full(16, -0.05 * deep(part)), abs=1e-6)
+
+
+@pytest.mark.parametrize("part", [0.3, 0.5])
+def test_heave_of_a_floating_ring(part):
+    """omega^2 = rho g b/(m + a) a metre of tube, b the width of its water line, a the water moved with its wet part.
+
+    Heave, pitch and roll of a ring have the same frequency; the buoyancy of a bar acts half at each end, which makes
+    pitch and roll softer by the cosine of half a bar's turn.
+    """
+    system = afloat(24, part)
+    level = fyke.solve_static(system, tolerance=1e-7).position[-1]
+    modes = fyke.modes(system, level, count=12)
+    width, area = 0.1 * np.sqrt(1.0 - deep(part) ** 2), np.pi / 4.0 * 0.01
+    exact = np.sqrt(1000.0 * 9.81 * width / (2.0 * part * 1000.0 * area))
+    up = np.abs(modes.shape[:, :24, 2]).max(axis=1) > 0.9
+    tilt = np.cos(np.pi / 24) * exact
+    assert modes.frequency[up][:3] == pytest.approx([tilt, tilt, exact], rel=1e-4)
+
+
+def test_a_ring_let_go_above_its_draught_heaves_with_its_period():
+    """Without drag; the water line of a tube half under water changes with the square of the motion alone."""
+    system = afloat(16, 0.5)
+    system = replace(
+        system, elements=system.elements._replace(normal_drag=np.zeros(20), tangential_drag=np.zeros(20))
+    )
+    period = 2.0 * np.pi * np.sqrt(2.0 * 500.0 * np.pi / 4.0 * 0.01 / (1000.0 * 9.81 * 0.1))
+    start = fyke.solve_static(system, tolerance=1e-7).state()
+    start = fyke.State(0.0, start.position.copy(), start.velocity.copy())
+    start.position[:16, 2] += 5e-4
+    run = fyke.simulate(
+        system,
+        duration=1.5 * period,
+        every=0.5 * period,
+        start=start,
+        stepper=fyke.Implicit(rtol=0.0, atol=1e-8),
+    )
+    assert run.outcome.ok, run.outcome
+    assert run.position[:, :16, 2].mean(axis=1) == pytest.approx(
+        5e-4 * np.array([1.0, -1.0, 1.0, -1.0]), abs=2e-5
+    )
+
+
+def test_a_rigid_ring_keeps_its_shape():
+    """A flexible ring in a current and the same one made rigid: it moves as before, and hardly bends."""
+    flexible = Tube.of("HDPE", diameter=0.1, wall=0.006)
+    bends = []
+    for rigid in (False, True):
+        twine = replace(flexible, rigid=rigid).twine("pipe")
+        net = ring(twine, diameter=4.0, knots=24)
+        rope = fyke.Twine("rope", 1000.0, 0.01, fyke.LinearLaw(1e8))
+        net = with_line(net, (-20.0, 0.0, 0.0), 12, [LinePiece(rope, 18.0, 4)], name="m", held=(True, False))
+        result = fyke.solve_static(
+            fyke.make_system(net, current=(1.0, 0.0, 0.0), surface=True), tolerance=1e-5
+        )
+        assert result.outcome.ok, result.outcome
+        x = result.position[-1][:24]
+        across = np.linalg.norm(x[:12] - x[12:], axis=1)
+        bends.append(np.ptp(across) / 4.0)
+    assert bends[0] > 1e-2 and bends[1] < 1e-4
