@@ -5,10 +5,10 @@ from __future__ import annotations
 from itertools import groupby
 
 import numpy as np
-from lines import NO_FORCES, NO_WATER, thread
 
 import fyke
 from fyke.study import Found
+from lines import NO_FORCES, NO_WATER, thread
 
 
 def starts(ends, knots):

@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 import scipy.sparse as sp
-from panels import NYLON, framed, settled
 
 import fyke
 from fyke.study import Found
+from panels import NYLON, framed, settled
 
 SQUARE = {"mesh": "square", "size": (0.216, 0.216)}
 # Level, a panel held at its corners hangs like a hammock; upright in still water its minimum would be too flat for

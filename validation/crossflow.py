@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from lines import STIFF, orders, thread, towards
 
 import fyke
 from fyke.study import Found
+from lines import STIFF, orders, thread, towards
 
 NO_GRAVITY = fyke.Water(gravity=0.0)
 

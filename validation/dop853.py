@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from panels import framed
 from scipy.integrate import solve_ivp
 
 import fyke
 from fyke.study import Found
+from panels import framed
 
 # Soft enough that SciPy's steps are not those of a stiff net; twine loses some of its swing.
 TWINE = fyke.Twine("soft", 1140.0, 1.5e-3, fyke.LinearLaw(2e6))

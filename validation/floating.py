@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from scipy.optimize import brentq
 
 import fyke
 from fyke.study import Found
@@ -21,6 +22,12 @@ def rope(density):
     return fyke.Twine("rope", density, DIAMETER, fyke.LinearLaw(1e9))
 
 
+def segment(s):
+    """Part of a circle under water, its middle s radii deep: the angle of its water line, theta - sin theta."""
+    angle = 2.0 * np.arccos(-np.clip(s, -1.0, 1.0))
+    return (angle - np.sin(angle)) / (2.0 * np.pi)
+
+
 def measure(tables):
     volume = np.pi / 4.0 * DIAMETER**2
     for above, wet in ((0.3, 0.7), (0.5, 0.5), (-0.2, 1.0), (1.5, 0.0)):
@@ -33,10 +40,8 @@ def measure(tables):
         middle = settled(fyke.line(rope(density), x, 1.05 * 10.0 / 40), current=(0.0, 0.3, 0.0)).position[-1][
             20, 2
         ]
-        # A level bar is a ramp: the part density / 1000 of its height is under water; a current holds it taut.
-        yield Found(
-            "rope", middle, 0.5 * DIAMETER * (1.0 - 2.0 * density / RHO), f"rope of {density:g} kg/m3"
-        )
+        deep = brentq(lambda s, part=density / RHO: segment(s) - part, -1.0, 1.0, xtol=1e-14)
+        yield Found("rope", middle, -0.5 * DIAMETER * deep, f"rope of {density:g} kg/m3")
     ball = fyke.line(
         fyke.Twine("thin", RHO, 1e-5, fyke.LinearLaw(1e9)),
         [[0, 0, -1.0], [0, 0, 0.3]],

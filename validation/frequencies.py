@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from lines import NO_FORCES, NO_WATER, thread
 
 import fyke
 from fyke.study import Found
+from lines import NO_FORCES, NO_WATER, thread
 
 MASS, SPRING, SPACING, TENSION = 0.002, 5000.0, 0.03, 2.0
 PHASE, SIZE = 4.5 * np.pi, 1e-6

@@ -5,14 +5,15 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from lines import STIFF, draw_orders, orders, thread
 
 import fyke
 from fyke.study import Found
+from lines import STIFF, draw_orders, orders, thread
 
 NO_GRAVITY = fyke.Water(gravity=0.0)
-# Speeds (m/s) at which the order is taken, and those whose profiles are in the table.
+# Speeds (m/s) at which the order is taken, and numbers of bars for it; angles from the vertical to begin at.
 ORDERS, CUTS = (0.5, 0.8, 1.0), (20, 40, 80)
+STARTS = (90.0, 45.0)
 
 
 def hang(row, bars, angle=np.pi / 2.0, gathered=1.0):
@@ -92,8 +93,9 @@ def cuts():
 def measure(tables):
     for row in tables["lines"]:
         case = name_of(row)
-        off = np.abs(errors(row, hang(row, bars_of(row)))).max()
-        yield Found("values", off, case=f"{case}, {bars_of(row)} bars")
+        for degrees in STARTS:
+            off = np.abs(errors(row, hang(row, bars_of(row), np.radians(degrees)))).max()
+            yield Found("values", off, case=f"{case}, {bars_of(row)} bars, let go at {degrees:g} deg")
         if row["speed"] in ORDERS:
             found = [np.linalg.norm(errors(row, hang(row, bars))) for bars in CUTS]
             cuts()[case] = (CUTS, found)

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from lines import NO_FORCES, NO_WATER, thread
 
 import fyke
 from fyke.study import Found
+from lines import NO_FORCES, NO_WATER, thread
 
 COLUMNS, ROWS, BAR, GRAVITY = 3, 8, 0.03, 9.81
 # Of the square sheet: diameter of bars and knots (m), their weights in water and that of a sinker (N), stiffness (N/m).

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from lines import thread
 
 import fyke
 from fyke.forces.evaluate import evaluate
 from fyke.study import Found
+from lines import thread
 
 DENSITY, SPEED, DIAMETER, LENGTH = 1025.0, 0.7, 2e-3, 0.03
 

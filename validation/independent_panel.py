@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from panels import BAR, CURRENT, mid_side, settled
 
 import fyke
 from fyke.study import Found
+from panels import BAR, CURRENT, mid_side, settled
 
 
 def nominal(system, rounds=8):

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from panels import framed, settled
 
 import fyke
 from fyke.study import Found
+from panels import framed, settled
 
 EXAMPLE = Path(__file__).resolve().parents[1] / "examples" / "panel.toml"
 SQUARE = {"mesh": "square", "size": (0.216, 0.216), "meshes": (8, 8)}

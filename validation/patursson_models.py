@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from patursson import CONSTANT, SCREENS, flat
 
 from fyke.study import Found
 from fyke.water.laws import measured
+from patursson import CONSTANT, SCREENS, flat
 
 COLUMNS = {
     "aarsnes": "screens, aarsnes",

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from patursson import BELLIED, STIFFNESSES, solved
-
 from fyke.study import Found
+from patursson import BELLIED, STIFFNESSES, solved
 
 
 def measure(tables):

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from lines import draw_orders
-from panels import CURRENT, framed, mid_side, settled
 
 import fyke
 from fyke.study import Found
+from lines import draw_orders
+from panels import CURRENT, framed, mid_side, settled
 
 SEGMENTS = (1, 2, 4, 8, 16)
 ERRORS = {}

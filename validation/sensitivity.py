@@ -6,13 +6,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib.figure import Figure
-from panels import NYLON, SIDE, framed, settled
 
 import fyke
 from fyke.forces.evaluate import evaluate
 from fyke.report.style import BLUE, DOUBLE_COLUMN, styled
 from fyke.study import Found
 from fyke.water.laws import LAWS
+from panels import NYLON, SIDE, framed, settled
 
 # Part of an input by which it is put up and down.
 STEP = 0.02

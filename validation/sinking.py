@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from lines import thread
 
 import fyke
 from fyke.study import Found
+from lines import thread
 
 EXACT = fyke.Verner(rtol=1e-10, atol=1e-12)
 SPHERE = fyke.Coefficients(

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from lines import thread
-
 import fyke
 from fyke.study import Found
+from lines import thread
 
 COEFFICIENTS = fyke.Coefficients(
     bars=fyke.ConstantBar(0.0, 0.0), knots=fyke.ConstantKnot(0.47), added_mass_bar=0.0, added_mass_knot=0.0

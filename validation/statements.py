@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from panels import framed, settled
-
 import fyke
 from fyke.study import Found
+from panels import framed, settled
 
 
 def drag(**given):

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from lines import NO_FORCES, NO_WATER, draw_orders, orders, thread
-from sinking import cylinder, sinking_errors, sphere, time_scale
 
 import fyke
 from fyke.study import Found
+from lines import NO_FORCES, NO_WATER, draw_orders, orders, thread
+from sinking import cylinder, sinking_errors, sphere, time_scale
 
 # Order of each, and steps in a time scale, or in a period.
 STEPPERS = {

@@ -7,7 +7,7 @@ import os
 import sys
 import traceback
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
@@ -85,7 +85,7 @@ def picture_of(measured: Measured) -> bytes | None:
 def _silent() -> Iterator[None]:
     """Let nothing through that other programs print, from compiled code too: standard output is the command's own."""
     sys.stdout.flush()
-    with open(os.devnull, "wb") as nowhere:
+    with open(os.devnull, "w", encoding="utf-8") as nowhere, redirect_stdout(nowhere):
         kept = os.dup(STANDARD_OUTPUT)
         os.dup2(nowhere.fileno(), STANDARD_OUTPUT)
         try:

@@ -69,8 +69,8 @@ def by_claim(report: Report) -> list[tuple[str, list[list[Judged]]]]:
 def levels_of(report: Report) -> list[dict[str, Any]]:
     """Return what the page shows: title and claims of every level.
 
-    Of a claim: title, source, verdicts in words, the verdict that gives it its colour, picture, and rows: cells, verdict, reason and miss, the size of
-    the difference over the tolerance, None where there is none.
+    Of a claim: title, source, verdicts in words, the verdict that gives it its colour, picture, and rows: cells,
+    verdict, reason and miss, the size of the difference over the tolerance, None where there is none.
     """
     return [
         {
