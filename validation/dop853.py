@@ -11,7 +11,7 @@ from panels import framed
 
 # Soft enough that SciPy's steps are not those of a stiff net; twine loses some of its swing.
 TWINE = fyke.Twine("soft", 1140.0, 1.5e-3, fyke.LinearLaw(2e6))
-DAMPING, DURATION, EVERY = 2e-3, 0.4, 0.1
+DAMPING, DURATION, EVERY = 2e-3, 0.2, 0.1
 WATER, GRAVITY, NORMAL, ALONG, BALL = 1000.0, 9.81, 1.2, 0.1, 1.0
 MESHES, SIDE = (3, 3), 0.12
 STEPPERS = {
