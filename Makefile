@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-peers bench bench-million bench-peers bench-see bench-water gallery format clean
+.PHONY: demo test test-peers bench bench-gear bench-million bench-peers bench-see bench-water gallery format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -30,6 +30,9 @@ bench-peers: $(VENV)/.installed-peers
 
 bench-see: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/see.py
+
+bench-gear: $(VENV)/.installed-test
+	@$(BIN)/python benchmarks/gear.py
 
 bench-water: $(VENV)/.installed-test
 	@$(BIN)/python benchmarks/water.py

@@ -7,15 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from scipy.special import ellipe, ellipk
 
 import fyke
-from beams import LENGTH, STIFFNESS, cantilever, in_vacuum, tube
+from beams import LENGTH, STIFFNESS, cantilever, in_vacuum, shape, tube
 from fyke.forces.bending import Bending
 from fyke.netting.lines import LinePiece, with_line
 from fyke.netting.rigging import with_rope
 from fyke.netting.tubes import Tube, ring
+from fyke.results.audit import audit
 from fyke.results.derive import summary
+from fyke.solve.equilibrium import Equilibrium
 from fyke.solve.pattern import Pattern
+from fyke.solve.relaxation import relax
 
 # Bending of three knots.
 
@@ -142,11 +146,20 @@ def test_modes_say_that_a_strut_beyond_its_buckling_load_does_not_stay():
     straight[:, 2] *= 1.0 - 1.2 * critical / 1e7
     with pytest.raises(ValueError, match="not stable"):
         fyke.modes(system, straight, count=2)
-    # Statics finds this equilibrium, since nothing pushes it aside, and says what it is.
-    result = fyke.solve_static(system, tolerance=1e-8)
-    assert result.outcome.ok and "not stable" in result.outcome.warnings[0]
-    below = cantilever(16, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical))
-    assert fyke.solve_static(below, tolerance=1e-8).outcome.warnings == ()
+
+
+def test_statics_leaves_a_strut_that_is_straight_beyond_its_buckling_load():
+    """Newton's method stays straight, since nothing pushes it aside; what buckles is the elastica by 1.2 times P_cr."""
+    critical = np.pi**2 * STIFFNESS / (4.0 * LENGTH**2)
+    k2 = brentq(lambda k2: (2.0 * ellipk(k2) / np.pi) ** 2 - 1.2, 0.01, 0.9)
+    result = fyke.solve_static(cantilever(40, (0.0, 0.0, 1.0), (0.0, 0.0, -1.2 * critical)), tolerance=1e-8)
+    assert result.outcome.ok and result.outcome.warnings == (), result.outcome
+    assert "not stable" in result.outcome.message
+    tip = result.position[-1][-1] / LENGTH
+    assert np.hypot(tip[0], tip[1]) == pytest.approx(2.0 * np.sqrt(k2) / ellipk(k2), abs=2e-3)
+    assert tip[2] == pytest.approx(2.0 * ellipe(k2) / ellipk(k2) - 1.0, abs=2e-3)
+    below = fyke.solve_static(cantilever(40, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical)), tolerance=1e-8)
+    assert "not stable" not in below.outcome.message and below.outcome.warnings == ()
 
 
 @pytest.mark.parametrize("stepper", [fyke.Implicit(rtol=0.0, atol=2e-8), fyke.Newmark(rtol=0.0, atol=2e-8)])
@@ -256,3 +269,32 @@ def test_a_rigid_ring_keeps_its_shape():
         across = np.linalg.norm(x[:12] - x[12:], axis=1)
         bends.append(np.ptp(across) / 4.0)
     assert bends[0] > 1e-2 and bends[1] < 1e-4
+
+
+def test_energy_of_a_swinging_beam_is_in_the_accounts():
+    """Nothing acts but the beam itself: what motion loses is in bending and stretching."""
+    system = cantilever(12)
+    modes = fyke.modes(system, system.net.positions, count=2)
+    start = system.at_rest()
+    start.velocity[:] = 0.05 * modes.shape[0]
+    run = fyke.simulate(
+        system,
+        duration=0.25 * modes.period[0],
+        every=0.005 * modes.period[0],
+        stepper=fyke.Newmark(rtol=0.0, atol=1e-7),
+        start=start,
+    )
+    energy = audit(system, run).energy
+    bending = Bending.of(system.net)
+    stored = bending.energy(run.position[-1]) - bending.energy(run.position[0])
+    assert energy.kinetic < 0.0 and stored > -0.9 * energy.kinetic
+    assert energy.parts_work == pytest.approx(-stored, rel=2e-3)
+    assert abs(energy.remainder) < 5e-3 * stored
+
+
+def test_relaxation_in_time_knows_tubes():
+    """The second way of statics, alone, on a beam that bends far."""
+    system = cantilever(20, load=(0.0, 0.0, -2.0 * STIFFNESS / LENGTH**2))
+    s = Equilibrium(system, system.at_rest(), None)
+    assert relax(s, lambda: s.residual <= max(1e-8, s.floor), 1000, lambda: None) == "there"
+    assert s.x + s.origin == pytest.approx(shape(system), abs=1e-6)

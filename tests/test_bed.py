@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import fyke
-from fyke.forces.bed import OnBed
+from fyke.forces.bed import OnBed, footprint
 from fyke.netting.rigging import Sphere, with_bodies
 from fyke.results.audit import audit
-from fyke.system.bed import CREEP, SOFT, Bed, footprint
+from fyke.water.bed import CREEP, SOFT, Bed
 from mooring import CHAIN, WATER, mooring, weight_of
 from reference import NO_FORCES, thread
 

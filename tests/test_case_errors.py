@@ -362,7 +362,7 @@ SPOILT = {
     "gear of an unknown kind": (
         '"panel"',
         '"trawl"',
-        ("line 13, [[gear]] 1 kind", '"trawl"', '"panel"', "choose"),
+        ("line 13, [[gear]] 1 kind", '"trawl"', '"panel"', "did you mean"),
     ),
     "number for a table": (
         "[current]\nvelocity = [0.5, 0.0, 0.0]\n",

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+import fyke
 from fyke.case import json_schema, load_case, parse_case, template
 from fyke.netting.elastic import LinearLaw, PowerLaw, TableLaw
 
@@ -169,6 +170,21 @@ def gear_of_the_template(lines):
     return range(first + 1, lines.index("", first))
 
 
+def shapes_of_the_template(lines):
+    """Numbers of the lines that show netting cut to shape, boxes and seams."""
+    first = lines.index("# Netting cut to shape, cages with four walls, and seams:")
+    return range(first + 1, lines.index("", first))
+
+
+def test_the_shapes_of_the_template_can_be_used():
+    lines = template().splitlines()
+    parts = shapes_of_the_template(lines)
+    block = [lines[i][2:] for i in parts]
+    case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
+    assert [part.kind for part in case.gear] == ["panel", "trapezoid", "box", "trapezoid", "seam"]
+    assert fyke.build_net(case).panels[-1].name == "square"
+
+
 @pytest.mark.parametrize("left_out", [("diameter", "height"), ("hanging_ratio",)])
 def test_the_gear_of_the_template_can_be_used(left_out):
     lines = template().splitlines()
@@ -178,6 +194,44 @@ def test_the_gear_of_the_template_can_be_used(left_out):
     case = parse_case("\n".join([*lines[: parts.start], *block, *lines[parts.stop :]]))
     kinds = ["panel", "cylinder", "rope", "collar", "ring", "ring", "sinkers", "floats"]
     assert [part.kind for part in case.gear] == kinds
+
+
+def lines_of_the_template(lines):
+    """Numbers of the lines that show the sea bed, chain and lines."""
+    first = lines.index("# Lines free of netting, and the sea bed, which lies at the depth of [water]:")
+    return range(first + 1, lines.index("", first))
+
+
+@pytest.mark.parametrize(
+    "left_out", [("pieces", "pretension"), ("pieces", 'length = "6.5'), ("twine", "length", "pretension")]
+)
+def test_the_lines_of_the_template_can_be_used(left_out):
+    """On the template's panel and a cylinder, the moorings always with their length."""
+    lines = template().splitlines()
+    block = [lines[i][2:] for i in lines_of_the_template(lines)]
+    moorings = next(i for i, line in enumerate(block) if line.startswith('kind = "moorings"'))
+    block = [line for i, line in enumerate(block) if i > moorings or not line.startswith(left_out)]
+    more = """
+[twine.rope]
+material = "PES"
+diameter = "8 mm"
+[[gear]]
+kind = "cylinder"
+name = "cage"
+netting = "main"
+meshes = [64, 18]
+hanging_ratio = [0.6, 0.8]
+[[gear]]
+kind = "panel"
+name = "left"
+netting = "main"
+meshes = [4, 4]
+hanging_ratio = 0.6
+"""
+    text = template().replace("# depth = 20.0 ", "depth = 20.0 ")
+    case = parse_case("\n".join([text, more, *block]))
+    assert [part.kind for part in case.lines] == ["line", "moorings"]
+    assert case.bed is not None and case.chain["links"].bar_diameter == 0.013
 
 
 def test_the_motion_of_the_template_can_be_used(tmp_path):
@@ -218,7 +272,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
         lines.index("", waves),
     )
     moved = lines.index("# [[motion]]")
-    parts = {*gear_of_the_template(lines), *range(moved, lines.index("", moved))}
+    parts = {*gear_of_the_template(lines), *shapes_of_the_template(lines), *lines_of_the_template(lines)}
+    parts |= {*range(moved, lines.index("", moved))}
     for number, line in enumerate(lines):
         words = ("The", "A ", "For", "By")
         if not line.startswith("# ") or "=" not in line or line[2:].startswith(words) or number in parts:
@@ -254,10 +309,8 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown = [old for old in shown if not old.startswith("velocity")]
             needed = next((i for i, old in enumerate(shown) if old.startswith(f"# {beside.get(key)} =")), 0)
             shown[needed] = shown[needed].removeprefix("# " * bool(needed))
-        if '"power"' in line:
-            shown = [old.replace("# depth =", "depth =") for old in shown]
-        if key == "positions":
-            shown = [old.replace("# [compare]", "[compare]") for old in shown]
+        for opened in ("# depth =",) * ('"power"' in line) + ("# [compare]",) * (key == "positions"):
+            shown = [old.replace(opened, opened[2:]) for old in shown]
         if key in ("duration", "stepper", "rtol", "atol", "max_step", "settle_force", "settle_energy"):
             shown = [old.replace('kind = "static"', 'kind = "dynamic"') for old in shown]
             shown = [old.replace("# duration", "duration") for old in shown]
@@ -269,7 +322,7 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
 def test_json_schema_lets_a_length_be_a_number_or_a_text_with_unit():
     schema = json_schema()
     assert schema["$schema"] == "https://json-schema.org/draft/2020-12/schema"
-    assert schema["required"] == ["schema", "current", "twine", "netting", "gear"]
+    assert schema["required"] == ["schema", "current", "gear"]
     number, text = schema["$defs"]["NettingSpec"]["properties"]["bar_length"]["anyOf"]
     assert number["type"] == "number" and number["exclusiveMinimum"] == 0.0
     assert re.search(text["pattern"], "30 mm") and not re.search(text["pattern"], "30 kg")

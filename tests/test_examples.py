@@ -37,8 +37,10 @@ def test_case_runs(case, tmp_path):
     assert all("floats" in warning for warning in summary["warnings"])
     if "waves" in summary:
         return
+    bed = summary.get("bed_force", [0.0, 0.0, 0.0])
     held = [
-        q + (summary["weight_in_water"] if i == 2 else 0.0) for i, q in enumerate(summary["support_reaction"])
+        q + (summary["weight_in_water"] if i == 2 else 0.0) - bed[i]
+        for i, q in enumerate(summary["support_reaction"])
     ]
     assert held == pytest.approx(summary["hydrodynamic_force"], abs=1e-4)
 
@@ -98,16 +100,29 @@ def test_diamond_netting_bears_along_its_sides_and_square_netting_does_not():
 
 
 def test_the_model_cage_keeps_what_it_says():
-    """Weight, stiffness and drag of the real netting by hand: bars of 25.5 mm, twine of 2.42 mm, sinkers of 5.15 N."""
+    """Twine, weight and drag area of the real netting by hand: bars of 25.5 mm, twine of 2.42 mm, sinkers of 5.15 N."""
     case = fyke.load_case(EXAMPLES / "model_cage.toml")
-    net = fyke.build_net(case)
-    (twine,) = net.twines
-    real = np.pi / 4 * 2.42e-3**2
-    assert twine.area / 85.9e-3 == pytest.approx(real / 25.5e-3, rel=5e-3)  # EA and weight per width
-    assert 2.203 * 4.44 / 85.9 == pytest.approx(1.2 * 2.42 / 25.5, rel=1e-3)
-    assert 0.184 * 4.44 / 85.9 == pytest.approx(0.1 * 2.42 / 25.5, rel=3e-3)
+    system = fyke.build_system(fyke.build_net(case), case)
     loland = 0.04 + (-0.04 + 0.194 - 1.24 * 0.194**2 + 13.7 * 0.194**3)
     assert 1.0 - 0.46 * loland == pytest.approx(0.886, abs=5e-4)
-    bars = 64 * 19 + 64 * 18
-    weight = 9.81 * 140.0 * np.pi / 4 * 4.44e-3**2 * 85.9e-3 * bars + 16 * 5.15
-    assert fyke.build_system(net, case).weight_in_water == pytest.approx(weight, rel=1e-10)
+    assert system.net.panels[0].meshes == (72, 20)
+    twine = 25.5e-3 * (216 * 61 + 216 * 60)
+    weight = 9.81 * 140.0 * np.pi / 4 * 2.42e-3**2 * twine + 16 * 5.15
+    assert system.weight_in_water == pytest.approx(weight, rel=1e-10)
+    el = system.elements
+    assert 2.0 * (el.normal_drag * el.rest_length).sum() == pytest.approx(
+        500.0 * 1.2 * 2.42e-3 * twine, rel=1e-10
+    )
+
+
+def test_the_gillnet_stands_for_its_real_meshes():
+    """3640 x 104 meshes in at most 5 000 knots: weight of twine, knots, ropes, floats and leads by hand."""
+    case = fyke.load_case(EXAMPLES / "gillnet.toml")
+    system = fyke.build_system(fyke.build_net(case), case)
+    net = system.net
+    assert net.knot_count <= 5000 and net.panels[0].real_meshes == (3640, 104)
+    knots = 2 * 3640 * 104 + 3640 + 104 + 1
+    fibre = np.pi / 4 * 0.3e-3**2 * 27.5e-3 * 4 * 3640 * 104 + np.pi / 6 * 0.75e-3**3 * knots
+    ropes = np.pi / 4 * 8e-3**2 * 2 * 100.1
+    weight = 9.81 * ((1140.0 - 1025.0) * fibre - (1025.0 - 910.0) * ropes) - 101 * 0.8 + 401 * 0.25
+    assert system.weight_in_water == pytest.approx(weight, rel=1e-9)

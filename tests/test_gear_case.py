@@ -329,11 +329,11 @@ SPOILT = {
         shape("cylinder", "diameter = 0.5", "height = 0.3", 'fixed = "corners"'),
         ("[[gear]] 1 fixed", '"corners"', '"top" or "edges" or "none"', "choose"),
     ),
-    "a kind that is not there": (
+    "a kind nearly there": (
         WHOLE.replace('kind = "rope"', 'kind = "ropes"'),
         ("[[gear]] 2 kind", '"ropes"', '"panel" or "trapezoid"', 'did you mean "rope"?'),
     ),
-    "a kind that is not there": (
+    "a kind to choose": (
         WHOLE.replace('kind = "rope"', 'kind = "buoy"'),
         ("[[gear]] 2 kind", '"buoy"', '"sinkers"', "choose"),
     ),
@@ -490,6 +490,8 @@ def test_the_schema_knows_every_kind():
         "cone",
         "frustum",
         "rope",
+        "line",
+        "moorings",
         "ring",
         "collar",
         "sinkers",

@@ -4,12 +4,24 @@ The sags of 96 x 96 meshes, whole and grouped, were computed with another progra
 interior-point method, documented to six digits.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import fyke
+from fyke.case import parse_case
+from fyke.case.errors import CaseError
 from fyke.forces.evaluate import evaluate
+from fyke.netting.joining import sewn
 from fyke.netting.measures import measure_net
+from fyke.netting.rigging import evenly
+from fyke.netting.shapes import box, cage
+from fyke.netting.sheet import Netting
+from fyke.netting.together import together
+from fyke.results.derive import summary
+from fyke.results.parts import by_part
+from fyke.results.volume import volume_history
 from fyke.system.system import State
 from fyke.water.laws.bars import Hoerner, Takagi
 from fyke.water.laws.knots import SchillerNaumann
@@ -144,3 +156,234 @@ def test_an_affine_stretch_gives_the_same_edge_force_and_real_tension(mesh, law)
 def _along(net):
     a, b = net.positions[net.bars].transpose(1, 0, 2)
     return (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
+
+
+MESHES = Netting(twine(), "diamond", BAR, KNOT, KNOT_DENSITY)
+
+
+@pytest.mark.parametrize("group", [1, 2, 4, 3])
+def test_a_round_cage_has_the_knots_and_the_twine_of_the_real_one_by_hand(group):
+    """48 x 12 meshes and a bottom of 8: rows of 48 knots, 24 + 1 of the wall, 15 more of the bottom, and its middle."""
+    net = cage(replace(MESHES, group=group), (48, 12), diameter=0.8, depth=0.6, bottom=(8, 0.1))
+    told = measure_net(net)
+    knots, bars = 48 * (25 + 15) + 1, 2 * 48 * (24 + 16)
+    assert (told.real_knots, told.real_bars) == (knots, bars)
+    fibre, ball = np.pi / 4.0 * TWINE_DIAMETER**2 * bars * BAR, np.pi / 6.0 * KNOT**3 * knots
+    assert told.mass == pytest.approx(DENSITY * fibre + KNOT_DENSITY * ball, rel=1e-12)
+    wall, floor = net.panels
+    assert wall.real_meshes == (48, 12) and floor.real_meshes == (48, 8)
+    # Round an axis all knots of a row are alike, and those of the seam of wall and bottom stand for whole rows.
+    seam = net.knot_multiple[wall.edge("bottom")]
+    assert seam == pytest.approx(np.full(len(seam), wall.group[0] * 0.5 * (wall.group[1] + floor.group[1])))
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+@pytest.mark.parametrize("group", [1, 2, 4])
+def test_a_box_has_the_knots_and_the_twine_of_the_real_one_by_hand(mesh, group):
+    """16 x 8 x 8 meshes and a bottom, which shares the knots and of squares the bars of the walls' lower edge."""
+    net = box(replace(MESHES, mesh=mesh, group=group), (16, 8, 8), size=(0.5, 0.25, 0.25))
+    told = measure_net(net)
+    if mesh == "diamond":
+        knots, bars = 48 * 17 + counts(mesh, (16, 8))[0] - 48, 2 * 48 * 16 + 4 * 16 * 8
+    else:
+        knots, bars = 48 * 9 + 17 * 9 - 48, 48 * (9 + 8) + counts(mesh, (16, 8))[1] - 48
+    assert (told.real_knots, told.real_bars) == (knots, bars)
+    assert told.twine_length == pytest.approx(bars * BAR, rel=1e-12)
+
+
+def test_corners_of_a_box_must_be_at_knots():
+    with pytest.raises(ValueError, match="3 does not divide the 16 and 8"):
+        box(replace(MESHES, group=3), (16, 8, 8), size=(0.5, 0.25, 0.25))
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+@pytest.mark.parametrize("group", [1, 2, 4])
+def test_seams_have_the_real_knots_once(mesh, group):
+    """Two panels of 8 x 8 meshes side by side are one of 16 x 8, but for the bars along the seam of squares."""
+    parts = [
+        panel(mesh, (8, 8), group, name=name, centre=(0.0, y, 0.0)) for name, y in (("a", 0.0), ("b", 0.4))
+    ]
+    sides = [("a", "right"), ("b", "left")]
+    net = sewn(together(parts), *sides)
+    knots, bars = counts(mesh, (16, 8))
+    told = measure_net(net)
+    assert (told.real_knots, told.real_bars) == (knots, bars + (8 if mesh == "square" else 0))
+
+
+@pytest.mark.parametrize(
+    ("few", "closed", "real"), [(13, False, 49), (12, False, 46), (12, True, 48), (5, True, 15)]
+)
+def test_what_hangs_at_real_knots_keeps_its_number_and_its_symmetry(few, closed, real):
+    knots = np.arange(few + closed)
+    knots[-1] = 0 if closed else few - 1
+    at = np.bincount(evenly(knots, real, closed=closed, real=real), minlength=few)
+    assert at.sum() == real and at.min() >= (real // few) // 2
+    assert np.array_equal(at, np.roll(at[::-1], 1) if closed else at[::-1])
+
+
+def test_a_real_bar_of_a_grouped_panel_bears_what_it_bears_in_the_real_net():
+    """A wall on its frame in a current: largest tension, sag and drag of 32 x 32 meshes, and of 8 x 8 for them."""
+    told = []
+    for group in (1, 2, 4):
+        net = panel("square", (32, 32), group, hung=0.98)
+        result = fyke.solve_static(fyke.make_system(net, current=(0.6, 0.0, 0.0)))
+        assert result.outcome.ok
+        sag = np.abs(result.position[-1][:, 0]).max()
+        told.append((result.tension[-1].max(), sag, result.hydrodynamic_force[-1][0]))
+    assert told[0][0] > 0.5
+    assert told[1] == pytest.approx(told[0], rel=0.01)
+    assert told[2] == pytest.approx(told[0], rel=0.035)
+    assert told[2][1:] == pytest.approx(told[0][1:], rel=0.003)
+
+
+def test_volume_and_drag_of_a_cage_converge_as_the_group_falls():
+    """48 x 24 meshes round an axis, with weights: the difference to the real net falls with the group."""
+    told = []
+    for group in (1, 2, 4):
+        case = parse_case(CAGE.replace("group = 1", f"group = {group}"))
+        system = fyke.build_system(fyke.build_net(case), case)
+        result = fyke.solve_static(system, tolerance=1e-6)
+        assert result.outcome.ok
+        drag, _, lift = result.hydrodynamic_force[-1].tolist()
+        built, frames = volume_history(result)
+        told.append((drag, float(frames[-1]), built))
+        # Nothing is lost between the parts and the whole, and between water, weight and supports.
+        parts = by_part(system, result)
+        assert sum(part.water_force[0] for part in parts) == pytest.approx(drag, rel=1e-9)
+        assert sum(part.weight_in_water for part in parts) == pytest.approx(system.weight_in_water, rel=1e-9)
+        assert result.support_reaction[-1] == pytest.approx(
+            [drag, 0.0, lift - system.weight_in_water], abs=1e-3
+        )
+    drags, volumes = (np.array([one[k] for one in told]) for k in (0, 1))
+    assert abs(drags[1] - drags[0]) < abs(drags[2] - drags[0]) < 0.05 * drags[0]
+    assert abs(volumes[1] - volumes[0]) < abs(volumes[2] - volumes[0]) < 0.08 * volumes[0]
+
+
+CAGE = """
+schema = 1
+[current]
+velocity = [0.3, 0.0, 0.0]
+[twine.main]
+material = "PA"
+diameter = "1.5 mm"
+youngs_modulus = "1 GPa"
+[netting.main]
+twine = "main"
+mesh = "square"
+bar_length = "30 mm"
+[[gear]]
+kind = "cylinder"
+name = "cage"
+netting = "main"
+meshes = [48, 24]
+group = 1
+diameter = "0.45 m"
+height = "0.71 m"
+top = [0.0, 0.0, -0.5]
+[[gear]]
+kind = "sinkers"
+along = "cage.bottom"
+weight = "0.05 N"
+density = 7850.0
+"""
+
+
+def case_of(*, old=(), netting="", grouping=""):
+    text = CAGE.replace('bar_length = "30 mm"', f'bar_length = "30 mm"\n{netting}') + grouping
+    for before, after in old:
+        assert before in text
+        text = text.replace(before, after)
+    return parse_case(text)
+
+
+def test_a_group_of_the_netting_and_one_of_the_gear():
+    assert [piece.group for piece in case_of(netting="group = 3").pieces] == [1]
+    assert [piece.group for piece in case_of(old=[("group = 1", "")], netting="group = 3").pieces] == [3]
+    net = fyke.build_net(case_of(old=[("group = 1", "group = 4")]))
+    assert net.panels[0].meshes == (12, 6) and net.panels[0].real_meshes == (48, 24)
+    assert len(net.bodies[0].knots) == 48
+    assert net.labels[0] == "cage:0-0" and "cage:44-24" in net.labels
+
+
+@pytest.mark.parametrize(
+    ("budget", "group"), [(1200, 1), (1199, 2), (312, 2), (311, 3), (100, 4), (60, 6), (40, 6)]
+)
+def test_a_budget_of_knots_is_kept_by_the_least_group(budget, group):
+    """48 x (24 + 1) knots; 24 x 13, 16 x 9, 12 x 7, 10 x 6, 8 x 5 when grouped. 5 does not divide 48, 6 does both."""
+    case = case_of(old=[("group = 1", "")], grouping=f"[grouping]\nknots = {budget}\n")
+    net = fyke.build_net(case)
+    assert net.knot_count <= budget
+    assert case.pieces[0].group == group
+    assert not case.warnings
+
+
+def test_counts_that_the_group_does_not_divide_are_rounded_with_a_message():
+    case = case_of(old=[("group = 1", "group = 5")])
+    assert any("48 x 24" in one and "10 x 5 are laid" in one for one in case.warnings)
+    net = fyke.build_net(case)
+    assert measure_net(net).real_knots == 48 * 25
+
+
+@pytest.mark.parametrize(
+    ("changes", "parts"),
+    {
+        "segments": ({"netting": "segments = 2\ngroup = 2"}, ("[netting.main] group", "segments", "group")),
+        "hexagons": (
+            {
+                "netting": 'long_bar = "30 mm"\ngroup = 2',
+                "old": [('"square"', '"hexagonal"'), ("group = 1", "")],
+            },
+            ("[netting.main] group", "hexagonal", "diamond and square"),
+        ),
+        "too large": (
+            {"old": [("group = 1", "group = 20")]},
+            ("[[gear]] 1 group", "20 for the cylinder of 48 x 24", "at most 16", "group = 16"),
+        ),
+        "no number": ({"old": [("group = 1", "group = 0")]}, ("group", "0", "1 to 1000")),
+        "small budget": (
+            {"old": [("group = 1", "")], "grouping": "[grouping]\nknots = 5\n"},
+            ("[grouping] knots", "5, but the netting has", "or more"),
+        ),
+        "given groups": (
+            {"grouping": "[grouping]\nknots = 500\n"},
+            ("[grouping] knots", "500, but the netting has 1200 at least", "1200 or more"),
+        ),
+        "box": (
+            {
+                "old": [
+                    ('"cylinder"', '"box"'),
+                    ("[48, 24]", "[8, 12, 8]"),
+                    ('diameter = "0.45 m"', "size = [0.24, 0.36, 0.24]"),
+                    ('height = "0.71 m"', ""),
+                    ("group = 1", "group = 3"),
+                ]
+            },
+            ("[[gear]] 1 group", "3 for the box of 8 x 12", "divides both", "1, 2, 4", "group = "),
+        ),
+        "too many knots": (
+            {"old": [("[48, 24]", "[20000, 2000]"), ('"0.45 m"', '"190 m"'), ('"0.71 m"', '"60 m"')]},
+            ("gear", "knots", "at most 10,000,000", "[grouping]"),
+        ),
+    }.values(),
+)
+def test_what_is_wrong_with_a_group_is_told_in_four_parts(changes, parts):
+    with pytest.raises(CaseError) as caught:
+        case_of(**changes)
+    told = [" | ".join((p.where, p.found, p.allowed, p.cure)) for p in caught.value.problems]
+    assert any(all(part in one for part in parts) for one in told), told
+
+
+def test_a_result_of_a_grouped_net_comes_back_from_its_file(tmp_path):
+    case = case_of(old=[("group = 1", "group = 4")])
+    result = fyke.solve_static(fyke.build_system(fyke.build_net(case), case))
+    file = tmp_path / "grouped.nc"
+    fyke.save(result, file)
+    back = fyke.load(file)
+    assert np.array_equal(back.net.bar_multiple, result.net.bar_multiple)
+    assert np.array_equal(back.net.knot_multiple, result.net.knot_multiple)
+    assert back.net.panels[0].real_meshes == (48, 24)
+    figures = summary(back)
+    assert (figures["real_knots"], figures["real_bars"], figures["group"]) == (1200, 48 * 49, 4.0)
+    # Begun where it ended, a solve has nothing left to do.
+    again = fyke.solve_static(fyke.build_system(fyke.build_net(case), case), start=back.state())
+    assert again.outcome.ok and np.abs(again.tension - back.tension).max() < 1e-6

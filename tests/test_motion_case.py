@@ -10,6 +10,7 @@ import fyke
 from fyke.case import CaseError, load_case, parse_case
 from fyke.case.motion import read_motion
 from fyke.cli.check import check_case, judge
+from fyke.cli.export import case_of
 from fyke.live.study import Study
 from fyke.results import flow_direction, mean_current
 from fyke.system.build import build_net, build_system
@@ -144,6 +145,20 @@ def test_a_file_is_followed(tmp_path):
     assert x[:, 2] + 5 == pytest.approx(away[:, 1] * math.sin(roll) + away[:, 2] * math.cos(roll), abs=1e-6)
     assert v.mean(axis=0) == pytest.approx([np.cos(4.23), -np.sin(4.23), 0.0], abs=1e-4)
     assert read_motion(tmp_path / "ship.csv") is read_motion(tmp_path / "ship.csv")
+
+
+def test_a_result_without_its_record_has_no_case(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "m.csv").write_text("time,dx,dy,dz\n0,0,0,0\n2,0,0,0.1\n")
+    case = parse_case(text_of('[[motion]]\nfile = "m.csv"\n'), "m.toml")
+    net = build_net(case)
+    result = fyke.simulate(build_system(net, case), duration=0.02, every=0.01)
+    assert result.position[-1][net.fixed] == pytest.approx(
+        net.positions[net.fixed] + [0, 0, 0.001], abs=1e-12
+    )
+    assert case_of(result) is not None
+    (tmp_path / "m.csv").unlink()
+    assert case_of(result) is None
 
 
 def test_a_towed_case_is_judged_and_seen_from_the_carriage(tmp_path, capsys):
@@ -286,3 +301,102 @@ def test_all_faults_at_once_and_exit_code(tmp_path, capsys):
     assert check_case(file, json=True) == 2
     told = json.loads(capsys.readouterr().out)
     assert len(told["problems"]) == 4
+
+
+# Names on gear of every kind
+
+
+BOX = """schema = 1
+[current]
+velocity = [0.1, 0.0, 0.0]
+[twine.main]
+material = "PA"
+diameter = "1.5 mm"
+[netting.main]
+twine = "main"
+mesh = "square"
+bar_length = "0.1 m"
+[[gear]]
+kind = "box"
+name = "box"
+netting = "main"
+meshes = [4, 4, 3]
+size = [0.4, 0.4, 0.3]
+top = [0.0, 0.0, -1.0]
+fixed = "edges"
+"""
+COLLAR = """[tube.pipe]
+material = "HDPE"
+diameter = "32 mm"
+wall = "3 mm"
+[[gear]]
+kind = "collar"
+name = "collar"
+tube = "pipe"
+along = "box.top"
+"""
+
+
+def test_names_of_a_box():
+    for name, count in (("box.corner1", 2), ("box", 32), ("box.top", 16), ("box:0-3", 1)):
+        text = BOX + TOW + f'of = ["{name}"]\n' + DYNAMIC
+        if name == "box.corner1":
+            with pytest.raises(CaseError, match="2 of its 4 knots are free"):
+                parse_case(text)
+            continue
+        case = parse_case(text)
+        assert len(build_system(build_net(case), case).motion.knots) == count
+
+
+def test_labels_of_grouped_netting_are_the_real_ones():
+    grouped = BOX.replace("meshes = [4, 4, 3]", "meshes = [8, 8, 6]").replace("0.1 m", "0.05 m")
+    grouped = grouped.replace('kind = "box"', 'kind = "box"\ngroup = 2')
+    case = parse_case(grouped + TOW + 'of = ["box:0-6"]\n' + DYNAMIC)
+    system = build_system(build_net(case), case)
+    knot = int(system.motion.knots[0])
+    top = system.net.positions[system.net.fixed, 2].max()
+    assert system.net.positions[knot, 2] == top and len(system.motion.knots) == 1
+
+
+def test_what_a_collar_sets_free_is_told_when_it_is_built(tmp_path, capsys):
+    """The net is needed to know it; the exit code is that of any wrong case."""
+    file = tmp_path / "m.toml"
+    file.write_text(BOX + TOW + 'of = ["box.top"]\n' + COLLAR + DYNAMIC)
+    assert check_case(file, json=False) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert "[[motion]] 1" in told and "16 of its 16 knots are free" in told and "hold them" in told
+
+
+LINE = """schema = 1
+[water]
+depth = 15.0
+[current]
+velocity = [0.0, 0.0, 0.0]
+[bed]
+[chain.main]
+bar_diameter = "13 mm"
+[[gear]]
+kind = "line"
+name = "mooring"
+from = [0.0, 0.0, -15.0]
+to = [38.0, 0.0, -0.2]
+twine = "main"
+length = "45 m"
+segments = 30
+"""
+
+
+def test_a_fairlead_heaves():
+    """The end of a mooring line goes up and down, its anchor does not; the chain follows."""
+    motion = '[[motion]]\nof = ["mooring:30"]\namplitude = [0, 0, 0.5]\nperiod = 4\nramp = 2\n'
+    case = parse_case(LINE + motion + '[solve]\nkind = "dynamic"\nduration = 5.0\n')
+    net = build_net(case)
+    system = build_system(net, case)
+    assert [net.labels[knot] for knot in system.motion.knots] == ["mooring:30"]
+    run = fyke.simulate(system, duration=5.0, every=0.5)
+    assert run.outcome.ok
+    assert run.position[-1, -1] == pytest.approx([38.0, 0.0, -0.2 + 0.5], abs=1e-12)
+    assert run.position[-1, 0] == pytest.approx([0.0, 0.0, -15.0], abs=1e-12)
+    assert np.ptp(run.tension[4:, -1]) > 0.05 * run.tension[0, -1]
+    whole = parse_case(LINE + motion.replace("mooring:30", "mooring") + DYNAMIC)
+    assert len(build_system(build_net(whole), whole).motion.knots) == 2

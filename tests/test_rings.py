@@ -22,7 +22,7 @@ from fyke.report.page.packing import scene
 from fyke.report.page.words import ring_table
 from fyke.report.parts import Bars, parts_of
 from fyke.report.sections import sections
-from fyke.results import ring_figures, rings_told, write_rings
+from fyke.results import by_part, ring_figures, rings_told, write_rings
 from fyke.results.rings import ring_words
 from fyke.solve.result import Result
 from fyke.system.hanging import hanging
@@ -457,3 +457,7 @@ def test_tables_tell_the_rings(moored, tmp_path):
     assert rows[1]["draught_most"] == ""
     assert "ovality" in dict(ring_words(figures))["collar collar"]
     assert len(ring_table(figures)) == 2
+    parts = {part.name: part for part in by_part(system, result)}
+    assert parts["collar"].kind == "collar"
+    assert parts["collar"].utilisation == figures["rings"][0]["utilisation"]
+    assert parts["sinker tube"].slack_bars == 0

@@ -11,6 +11,7 @@ import pytest
 import fyke
 from fyke.case import CaseError, parse_case
 from fyke.cli.check import check_case
+from fyke.forces.screens import Screens
 from fyke.netting.cutting import Taper, cuts_of, lost, rate_of, repeated, spread
 from fyke.netting.faces import faces_of
 from fyke.netting.hexagon import Hexagon
@@ -21,6 +22,7 @@ from fyke.netting.shapes import bag, box, cage, frustum
 from fyke.netting.sheet import Netting, sheet
 from fyke.netting.together import together
 from fyke.results.volume import enclosed_volume
+from fyke.water.laws.panels import Aarsnes
 
 BAR = 0.05
 TWINE = fyke.Twine("n", 1140.0, 2e-3, fyke.LinearLaw(1e9))
@@ -264,6 +266,40 @@ def test_symmetric_gear_stays_symmetric(name, net):
     result = fyke.solve_static(fyke.make_system(heavy, current=(0.2, 0.0, 0.0)), tolerance=1e-10)
     assert result.outcome.ok, name
     assert mirrored(net, result) < 1e-9 * np.ptp(net.positions, axis=0).max()
+
+
+@pytest.mark.parametrize(("high", "low", "towards"), [(0.6, 0.6, "cylinder"), (0.6, 0.0, "cone")])
+def test_a_frustum_comes_to_its_neighbours_as_its_rims_do(high, low, towards):
+    """Held by both rims in a current: tensions of a frustum go to those of the limit in proportion to its diameter."""
+    found = {}
+    for more in (0.0, 0.02, 0.01, 0.005):
+        sign = -1.0 if towards == "cylinder" else 1.0
+        rims = (low + sign * more, high)
+        net = frustum(
+            made_of("diamond"), (12, 4), diameters=rims, height=0.36, centre=(0, 0, -0.2), fixed="edges"
+        )
+        result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)), tolerance=1e-10)
+        assert result.outcome.ok
+        assert net.panels[0].shape == (towards if more == 0.0 else "frustum")
+        found[more] = result.tension[-1]
+    away = [np.linalg.norm(found[more] - found[0.0]) for more in (0.02, 0.01, 0.005)]
+    assert away[0] > away[1] > away[2]
+    assert away[2] / away[1] == pytest.approx(0.5, abs=0.05)
+    assert away[2] < 0.05 * np.linalg.norm(found[0.0])
+
+
+@pytest.mark.parametrize("speed", [0.3, 0.9])
+def test_drag_of_a_box_of_screens_is_that_of_its_panels(speed):
+    """Front and back face on, sides and bottom edge on: rho/2 u^2 (2 A C_D(0) + A_along C_D(90 deg)), as Aarsnes."""
+    net, (x, y, z) = open_box("square")
+    faces, load = faces_of(net), np.zeros_like(net.positions)
+    screens = Screens.of(faces, Aarsnes(), 1000.0, 1e-6)
+    screens.add_load(net.positions, np.tile([speed, 0.0, 0.0], (net.knot_count, 1)), load)
+    solid = 2.0 * 0.002 / BAR - (0.002 / BAR) ** 2
+    assert faces.solidity == pytest.approx(np.full(faces.count, solid))
+    face_on = solid - 1.24 * solid**2 + 13.7 * solid**3
+    drag = 0.5 * 1000.0 * speed**2 * (2.0 * y * z * face_on + 0.04 * (2.0 * x * z + x * y))
+    assert load.sum(axis=0) == pytest.approx([drag, 0.0, 0.0], rel=1e-9, abs=1e-12)
 
 
 HEAD = """schema = 1
@@ -650,6 +686,63 @@ def test_a_bag_of_panels_closes(panels, rate):
     assert len(np.unique(np.concatenate([one.edge("bottom") for one in mirror.panels]))) == panels * wide
 
 
+def line_case(*keys, twine='diameter = "10 mm"\nlead = "150 g/m"'):
+    rope = f'[twine.line]\nmaterial = "PES"\n{twine}\n'
+    panel_ = shape("panel", "meshes = [10, 4]", "hanging_ratio = 0.6", 'fixed = "top"').removeprefix(HEAD)
+    foot = '[[gear]]\nkind = "rope"\nname = "foot"\ntwine = "line"\nalong = "a.bottom"\n'
+    return "\n".join([HEAD + rope + panel_ + foot, *keys, ""])
+
+
+@pytest.mark.parametrize(
+    ("twine", "fibre"),
+    [
+        ('diameter = "10 mm"\nlead = "150 g/m"', (np.pi / 4 * 0.01**2 - 0.15 / 11340) * 1380),
+        ('diameter = "10 mm"\nrtex = "50 g/m"\nlead = "150 g/m"', 0.05),
+        ('rtex = "50 g/m"\nlead = "150 g/m"', 0.05),
+    ],
+)
+def test_a_lead_line_weighs_its_fibre_and_its_lead(twine, fibre):
+    """In water of 1000 kg/m3: m g (1 - 1000 / density) of either, on the unloaded length of the rope."""
+    case, plain = (
+        parse_case(line_case(twine=twine)),
+        parse_case(line_case().split('[[gear]]\nkind = "rope"')[0]),
+    )
+    heavy, light = (fyke.build_system(fyke.build_net(one), one).weight_in_water for one in (case, plain))
+    length = 10 * 0.1 * 0.6
+    by_hand = 9.81 * length * (fibre * (1.0 - 1000.0 / 1380.0) + 0.15 * (1.0 - 1000.0 / 11340.0))
+    assert heavy - light == pytest.approx(by_hand, rel=1e-10)
+    assert not any("'line' floats" in one for one in case.warnings)
+    solid = fibre / 1380.0 + 0.15 / 11340.0
+    if "diameter" not in twine:
+        area = np.pi / 4.0 * case.twine["line"].diameter ** 2
+        assert area == pytest.approx(fibre / 1380.0 / 0.65 + 0.15 / 11340.0, rel=1e-12)
+        assert area > solid
+
+
+def floats(*keys):
+    return "\n".join(['[[gear]]\nkind = "floats"\nname = "f"\nbuoyancy = "1 N"\ndensity = 200', *keys])
+
+
+@pytest.mark.parametrize(("spacing", "count"), [(0.06, 11), (0.12, 6), (0.2, 4), (0.5, 2), (2.0, 2)])
+def test_floats_along_a_line_keep_their_spacing(spacing, count):
+    """An edge of 0.6 m: one at either end, and as near to the spacing as whole numbers and knots allow."""
+    case = parse_case(line_case(floats('along = "a.top"', f"spacing = {spacing}")))
+    net = fyke.build_net(case)
+    (bodies,) = net.bodies
+    assert len(bodies.knots) == count
+    assert {net.panels[0].edge("top")[0], net.panels[0].edge("top")[-1]} <= set(bodies.knots.tolist())
+    steps = np.linalg.norm(np.diff(net.positions[bodies.knots], axis=0), axis=1)
+    assert np.ptp(steps) <= 0.06 + 1e-12
+
+
+def test_sinkers_round_a_rim_keep_their_spacing():
+    sinkers = (
+        '[[gear]]\nkind = "sinkers"\nalong = "lower.bottom"\nspacing = 0.2\nweight = 1\ndensity = 7850\n'
+    )
+    net = fyke.build_net(parse_case(seam_case(24, None) + sinkers))
+    assert len(net.bodies[0].knots) == round(24 * 0.3 * np.sin(np.pi / 24) / 0.2)
+
+
 JOINED = four_walls(*ALL_ROUND, *BELOW)
 SPOILT |= {
     "counts that do not match": (
@@ -684,6 +777,22 @@ SPOILT |= {
     "seam of a rim to a side": (
         JOINED + seam_case(24, None).removeprefix(HEAD).replace('"upper.bottom"', '"floor.left"'),
         ("join", "one closes round", "two edges that close round", "join the sides"),
+    ),
+    "floats too near": (
+        line_case(floats('along = "a.top"', "spacing = 0.01")),
+        ("[[gear]] 3 spacing", "61 of floats 'f'", "at most the 11 knots", "fewer"),
+    ),
+    "spacing and count": (
+        line_case(floats('along = "a.top"', "spacing = 0.1", "count = 3")),
+        ("[[gear]] 3 spacing", "spacing beside count", "one of the two", "leave count"),
+    ),
+    "spacing of labels": (
+        line_case(floats('at = ["a:0-0"]', "spacing = 0.1")),
+        ("[[gear]] 3 spacing", "spacing beside at", "one of the two", "leave at"),
+    ),
+    "more lead than rope": (
+        line_case(twine='diameter = "4 mm"\nlead = "150 g/m"'),
+        ("[twine.line] lead", "150 g/m of lead in a diameter of 4 mm", "above 4.104 mm", "units"),
     ),
     "held by no seam": (
         four_walls(*ALL_ROUND),

@@ -27,17 +27,17 @@ if TYPE_CHECKING:
     from .solve.static import solve_static
     from .solve.symplectic import Symplectic
     from .solve.verner import Verner
-    from .system.bed import Bed
     from .system.build import build_net, build_system, make_system
     from .system.laws import Coefficients, Water
     from .system.system import State, System
+    from .water.bed import Bed
     from .water.laws.bars import ConstantBar
     from .water.laws.knots import ConstantKnot
 
 # Names are fetched when first used, so that `import fyke` and `fyke --help` are quick.
 _HOME = {
     "Auto": "solve.auto",
-    "Bed": "system.bed",
+    "Bed": "water.bed",
     "Case": "case",
     "CaseError": "case",
     "Coefficients": "system.laws",

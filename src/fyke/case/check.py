@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from math import hypot
 from pathlib import Path as FilePath
 from typing import Any, TypeVar
 
 from pydantic import TypeAdapter, ValidationError
 
-from ..netting.twine import MATERIALS, PACKING, Material, diameter_of
+from ..netting.twine import LEAD, MATERIALS, PACKING, Material, diameter_of
 from .added_mass import added_mass_file_problems, added_mass_findings
 from .drag import Drag, drag_file_problems, hung_solidity
 from .errors import Problem
@@ -18,6 +19,8 @@ from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, has_bottom, reference
 from .grouping import grouping_findings
 from .keys import nearest
+from .line_check import line_findings
+from .lines import ChainSpec, LaidSpec
 from .load_case import load_case_file_problems, load_case_findings
 from .motion_check import motion_file_problems, motion_findings
 from .places import Path
@@ -27,11 +30,11 @@ from .seams import SeamSpec
 from .tube_check import tube_findings
 from .tubes import TubeSpec, TubularSpec
 from .twine import MaterialSpec, TableSpec, TwineSpec
-from .water_check import current_file_problems, current_findings, sea_bed_findings
+from .water_check import bed_findings, current_file_problems, current_findings, sea_bed_findings
 from .waves import wave_findings
 from .written import written
 
-RIGGING = {"seam", "rope", "ring", "collar", "sinkers", "floats"}  # kinds of gear that are not netting
+RIGGING = {"seam", "rope", "ring", "collar", "line", "moorings", "sinkers", "floats"}  # not netting
 MOST_OUTPUTS = 1_000_000
 
 Finding = tuple[Path, str, str, str]  # path, found, allowed, cure
@@ -48,6 +51,7 @@ class Parts:
     twines: dict[str, TwineSpec]
     tubes: dict[str, TubeSpec]
     nettings: dict[str, NettingSpec]
+    chains: dict[str, ChainSpec]
     gear: dict[int, Part]
     folder: FilePath
 
@@ -66,6 +70,7 @@ class Parts:
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
             _named(TubeSpec, raw, "tube"),
             _named(NettingSpec, raw, "netting"),
+            _named(ChainSpec, raw, "chain"),
             {i: part for i, part in parts.items() if part is not None},
             folder,
         )
@@ -90,6 +95,11 @@ class Parts:
     def ropes(self) -> dict[int, RopeSpec]:
         """Gear that is ropes, by its place in the file."""
         return {i: part for i, part in self.gear.items() if isinstance(part, RopeSpec)}
+
+    @property
+    def lines(self) -> dict[int, LaidSpec]:
+        """Gear that is lines and moorings, by its place in the file."""
+        return {i: part for i, part in self.gear.items() if isinstance(part, LaidSpec)}
 
     @property
     def tubulars(self) -> dict[int, TubularSpec]:
@@ -163,14 +173,18 @@ def findings(parts: Parts) -> Iterator[Finding]:
     for name, netting in parts.nettings.items():
         yield from _thickness(("netting", name), netting, parts.twines.get(netting.twine))
     yield from tube_findings(parts)
-    yield from gear_findings(parts, _valid(Water, parts.raw.get("water", {})))
+    water = _valid(Water, parts.raw.get("water", {}))
+    yield from gear_findings(parts, water)
+    yield from line_findings(parts, water)
+    yield from bed_findings(parts, water)
     yield from grouping_findings(parts)
     yield from _outputs(parts)
     yield from _stepper(parts)
     yield from _compare(parts)
     yield from _solidities(parts)
     yield from added_mass_findings(parts.raw)
-    yield from _waves(parts)
+    if water is not None and "waves" in parts.raw:
+        yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
     yield from current_findings(parts)
     yield from sea_bed_findings(parts)
     yield from _load_cases(parts)
@@ -260,9 +274,15 @@ def _thickness_keys(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
 def _fibre(path: Path, twine: TwineSpec) -> Iterator[Finding]:
     """What is wrong with a twine that is said to hold more fibre than there is room for."""
     density, diameter = twine.resolved_density, twine.given_diameter
+    if twine.lead and diameter is not None and diameter <= diameter_of(twine.lead, LEAD, 1.0):
+        least = diameter_of(twine.lead, LEAD, 1.0)
+        found = f"{twine.lead * 1e3:g} g/m of lead in a diameter of {diameter * 1e3:g} mm"
+        allowed = f"above {least * 1e3:.4g} mm, which the lead alone fills"
+        yield (*path, "lead"), found, allowed, "check the units of lead and diameter"
+        return
     if density is None or diameter is None or twine.rtex is None:
         return
-    solid = diameter_of(twine.rtex, density, 1.0)
+    solid = hypot(diameter_of(twine.rtex, density, 1.0), diameter_of(twine.lead or 0.0, LEAD, 1.0))
     if solid > diameter * (1.0 + 1e-9):
         found = f"{twine.rtex * 1e6:g} tex in a diameter of {diameter * 1e3:g} mm"
         allowed = f"at least {solid * 1e3:.4g} mm, which fibre of {density:g} kg/m3 fills without pores"
@@ -330,6 +350,10 @@ def _stepper(parts: Parts) -> Iterator[Finding]:
         found = f'"{solve.stepper}" with screens, which explicit steps do not know'
         allowed = '"auto", "implicit" or "newmark" with [drag] kind = "screens"'
         yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
+    if solve.stepper in _EXPLICIT and "bed" in parts.raw:
+        found = f'"{solve.stepper}" with a sea bed, which explicit steps do not know'
+        allowed = '"auto", "implicit" or "newmark" with [bed]'
+        yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
     if solve.max_step is not None and solve.max_step > solve.duration:
         allowed = f"at most the duration of {solve.duration:g} s"
         yield (
@@ -374,12 +398,6 @@ def _solidities(parts: Parts) -> Iterator[Finding]:
         allowed = f'one solidity for the law "{drag.bars.law}" of all bars'
         cure = f'write bars = {{ law = "{drag.bars.law}", solidity = {min(found)} }} with the one that counts'
         yield ("drag", "bars"), told, allowed, cure
-
-
-def _waves(parts: Parts) -> Iterator[Finding]:
-    water = _valid(Water, parts.raw.get("water", {}))
-    if water is not None and "waves" in parts.raw:
-        yield from wave_findings(parts.raw["waves"], water.depth, water.gravity)
 
 
 def _load_cases(parts: Parts) -> Iterator[Finding]:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from math import inf, pi
+from math import pi
 from typing import TYPE_CHECKING, Any, cast
 
 from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
 from ..netting.multiples import LEAST_AROUND
+from ..netting.references import IN_ROW
+from .bodies_check import body_findings
 from .box import BoxSpec
 from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
-from .rigging import BodiesSpec, RopeSpec, SinkersSpec
+from .rigging import BodiesSpec, RopeSpec
+from .rows import in_row_findings, rows_of
 from .seams_check import joined_names, seam_findings
 from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
@@ -28,10 +31,8 @@ if TYPE_CHECKING:
     from .schema import Water
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
-_LARGEST_BODY = 100.0  # m; a larger one is a slip of the pen
 _ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
 _FLAT = ("panel", "trapezoid", "triangle")
-_KIND_OF_FORCE = {"sinkers": ("weight", '"5 N"', "7850.0"), "floats": ("buoyancy", '"5 N"', "200.0")}
 
 
 def reference(path: Path, keys: dict[str, Any], table: str, there: list[str]) -> Iterator[Finding]:
@@ -51,6 +52,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     for index, keys in parts.gear_tables():
         for table in ("netting", "twine", "tube"):
             there = [name for name, _ in parts.items(table)]
+            there += [name for name, _ in parts.items("chain") if table == "twine"]
             yield from reference(("gear", index, table), keys, table, there)
         yield from _held(("gear", index), keys, parts)
         if keys.get("kind") in (*_FLAT, "box", None):
@@ -75,7 +77,7 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
         yield from tubular_findings(("gear", index), part, parts.name_of(index))
         yield from _way(("gear", index), part, parts, sheets)
     for index, bodies in parts.bodies.items():
-        yield from _bodies(("gear", index), bodies, water)
+        yield from body_findings(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
 
 
@@ -314,6 +316,12 @@ def _rope(
             )
 
 
+def _round_edge(along: str, sheets: Mapping[str, tuple[Sheet, NettingSpec]]) -> bool:
+    """Whether an edge, one that is there, goes round."""
+    name, _, side = along.rpartition(".")
+    return sheets[name][0].closed and side in ("top", "bottom")
+
+
 def _way(
     path: Path, part: TubularSpec, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
@@ -344,29 +352,44 @@ def _hung(
         yield (*path, "along"), found, "an edge (along) or labels of knots (at)", cure
         return
     if bodies.along is not None:
-        for one in edge_named(path, called, bodies.along, parts, sheets):
+        last = rows_of(parts, sheets).get(bodies.along)
+        row = edge_named(path, called, bodies.along, parts, sheets) if last is None else ((last + 1, 0.0),)
+        for one in row:
             if len(one) == 4:
                 yield one
-            elif bodies.count is not None and bodies.count > one[0]:
-                found = f"{bodies.count} of {called} along {written(bodies.along)}"
+            elif bodies.many(*one, closed=_round_edge(bodies.along, sheets)) > one[0]:
+                many = bodies.many(*one, closed=_round_edge(bodies.along, sheets))
+                found = f"{many} of {called} along {written(bodies.along)}"
                 allowed = f"at most the {one[0]} knots of this edge"
                 cure = "put fewer and heavier ones there, or leave count out for one at every knot"
-                yield (*path, "count"), found, allowed, cure
+                yield (*path, "spacing" if bodies.spacing else "count"), found, allowed, cure
+    if bodies.spacing is not None and (bodies.at is not None or bodies.count is not None):
+        other = "at" if bodies.at is not None else "count"
+        yield (
+            (*path, "spacing"),
+            f"spacing beside {other} in {called}",
+            "one of the two",
+            f"leave {other} or spacing out",
+        )
     if bodies.at is None:
         return
     if bodies.count is not None:
         cure = "leave count out: there is one at every label"
         yield (*path, "count"), f"{bodies.count} beside at in {called}", "count with along only", cure
     for place, label in enumerate(bodies.at):
-        yield from _knot((*path, "at", place), called, label, parts, sheets)
+        yield from knot_findings((*path, "at", place), called, label, parts, sheets)
         if label in bodies.at[:place]:
             found = f"{written(label)} of {called}, twice"
             yield (*path, "at", place), found, "every knot once", "leave it out, or make a heavier one"
 
 
-def _knot(
+def knot_findings(
     path: Path, what: str, label: str, parts: Parts, sheets: Mapping[str, tuple[Sheet, NettingSpec]]
 ) -> Iterator[Finding]:
+    """What is wrong with the label of a knot; what: who hangs there."""
+    if IN_ROW.fullmatch(label):
+        yield from in_row_findings(path, what, label, rows_of(parts, sheets))
+        return
     match = _LABEL.fullmatch(label)
     name = (match[1] or "") if match else label.partition(":")[0]
     found = f"{written(label)} of {what}"
@@ -386,54 +409,3 @@ def _knot(
             allowed += "; of hexagons every other one" * (netting.mesh_name == "hexagonal")
             allowed += "; its tip is 0-0" * sheet.tip
             yield path, found, allowed, "choose a knot that is there; knots.csv of a run lists them"
-
-
-def _bodies(path: Path, bodies: BodiesSpec, water: Water | None) -> Iterator[Finding]:
-    """What floats and sinkers are, and whether they float and sink."""
-    force, example, density = _KIND_OF_FORCE[bodies.kind]
-    values = {
-        force: bodies.force,
-        "density": bodies.density,
-        "mass": bodies.mass,
-        "diameter": bodies.diameter,
-    }
-    given = [key for key, value in values.items() if value is not None]
-    if given not in ([force, "density"], ["mass", "diameter"]):
-        found = " and ".join(given) if given else "nothing of these"
-        allowed = f"{force} (N in water) and density of each one, or mass and diameter"
-        cure = f"write {force} = {example} and density = {density}, or mass and diameter"
-        yield (*path, given[0] if given else force), f"{found} in {bodies.kind}", allowed, cure
-        return
-    if water is None:
-        return
-    sinks = isinstance(bodies, SinkersSpec)
-    if bodies.density is not None:
-        key, own = "density", bodies.density
-    else:
-        volume = pi / 6.0 * (bodies.diameter or 0.0) ** 3
-        key, own = "mass", (bodies.mass or 0.0) / volume if volume > 0.0 else inf
-    if (own <= water.density) if sinks else (own >= water.density):
-        found = f"{own:g} kg/m3, which {'does not sink' if sinks else 'does not float'}"
-        allowed = (
-            f"{'above' if sinks else 'below'} the {water.density:g} kg/m3 of the water for {bodies.kind}"
-        )
-        other = "floats" if sinks else "sinkers"
-        cure = f'check the units of {", ".join(given)}, or write kind = "{other}"'
-        yield (*path, key), found, allowed, cure
-    elif bodies.density is not None:
-        yield from _body_of_force((*path, force), bodies, water)
-
-
-def _body_of_force(path: Path, bodies: BodiesSpec, water: Water) -> Iterator[Finding]:
-    if water.gravity == 0.0:
-        found = f"{bodies.force:g} N without gravity"
-        yield path, found, "[water] gravity above 0 for a force in water", "give mass and diameter instead"
-        return
-    try:
-        diameter = bodies.sphere(water.density, water.gravity).diameter
-    except (OverflowError, ZeroDivisionError):
-        diameter = inf
-    if not diameter <= _LARGEST_BODY:
-        found = f"{bodies.force:g} N at {bodies.density:g} kg/m3, a sphere of {diameter:.3g} m"
-        allowed = f"a body of at most {_LARGEST_BODY:g} m"
-        yield path, found, allowed, "check its unit; the density may be too near that of the water"

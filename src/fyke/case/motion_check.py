@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
-from ..netting.named import is_gear, knots_named
 from ..netting.net import Net
+from ..netting.references import edges_of, is_gear, knots_named
 from .errors import CaseError, Problem
 from .keys import nearest
 from .motion import MotionRecord, MotionSpec
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from .schema import Case, DynamicSolve
 
 ROUNDING = 1e-9  # of a duration that a record must last
+MOST_LAID = 200_000  # meshes that are laid to see which knots are held
 
 
 def motion_findings(parts: Parts, solve: DynamicSolve | None) -> Iterator[Finding]:
@@ -147,12 +148,14 @@ def _static(path: Path, spec: MotionSpec, parts: Parts) -> Iterator[Finding]:
 
 
 def _laid(parts: Parts) -> list[Net]:
-    """All netting that can be built by itself."""
+    """All netting that can be built by itself, what is very large apart; build_system judges that, too."""
     nets = []
     for index, piece in parts.pieces.items():
         netting = parts.nettings.get(piece.netting)
         twine = parts.twines.get(netting.twine) if netting else None
         if netting is None or twine is None or not piece.sized:
+            continue
+        if sum(sheet.meshes[0] * sheet.meshes[1] for sheet in piece.sheets(netting)) > MOST_LAID:
             continue
         try:
             piece.call(parts.name_of(index))
@@ -195,13 +198,9 @@ def _known(nets: list[Net]) -> set[str]:
 
 def _held_edges(nets: list[Net]) -> list[str]:
     edges = [
-        f"{panel.name}.{side}"
-        for net in nets
-        for panel in net.panels
-        for side in ("top", "bottom", "left", "right")
+        (net, f"{panel.name}.{side}") for net in nets for panel in net.panels for side in edges_of(panel)
     ]
-    known = [(edge, net, knots_named(net, edge)) for net in nets for edge in edges]
-    return [edge for edge, net, knots in known if len(knots) and net.fixed[knots].all()]
+    return [edge for net, edge in edges if net.fixed[knots_named(net, edge)].all()]
 
 
 def _unknown(path: Path, name: str, names: list[str], nets: list[Net]) -> Finding:

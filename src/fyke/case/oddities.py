@@ -42,7 +42,7 @@ def warnings(case: Case) -> tuple[str, ...]:
 def _floating(case: Case) -> Iterator[str]:
     water = case.water.density
     for name, twine in case.twine.items():
-        density = twine.resolved_density or 0.0
+        density = twine.mean_density or 0.0
         if density < water:
             yield (f"Twine '{name}' floats: {density:g} kg/m3 is below the water's {water:g} kg/m3.")
     for name, netting in case.netting.items():
@@ -93,8 +93,12 @@ def _unused(case: Case) -> Iterator[str]:
     for name in sorted(case.netting.keys() - worn):
         yield f"Netting '{name}' is not used by any gear."
     spun = {netting.twine for netting in case.netting.values()} | {rope.twine for rope in case.ropes}
-    for name in sorted(case.twine.keys() - spun):
-        yield f"Twine '{name}' is not used by any netting" + (" or rope." if case.ropes else ".")
+    spun |= {piece.twine for line in case.lines for piece in line.asked}
+    spun |= {line.twine for line in case.lines if line.twine is not None}
+    also = " or rope" * bool(case.ropes) + " or line" * bool(case.lines)
+    for what in ("twine", "chain"):
+        for name in sorted(getattr(case, what).keys() - spun):
+            yield f"{what.capitalize()} '{name}' is not used by any netting{also}."
     for name in sorted(case.tube.keys() - {part.tube for part in case.tubulars}):
         yield f"Tube '{name}' is not used by any ring or collar."
     made = {twine.material for twine in case.twine.values()} | {tube.material for tube in case.tube.values()}

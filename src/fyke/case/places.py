@@ -14,7 +14,14 @@ _ASSIGNMENT = re.compile(rf"\s*({_DOTTED})\s*=(.*)")
 _STRING_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\])*"|\'[^\']*\'|#.*')
 _TRIPLE = re.compile("\"\"\"|'''")
 _LISTED = ("gear", "motion", "load_case")  # tables whose second step is a number
-_NAMED = ("material", "twine", "tube", "netting", *_LISTED)  # those whose second step is that or a name
+_NAMED = (
+    "material",
+    "twine",
+    "chain",
+    "tube",
+    "netting",
+    *_LISTED,
+)  # those whose second step is that or a name
 
 
 class Places:

@@ -47,6 +47,11 @@ class BodiesSpec(Part, ABC):
         description="how many along the edge, evenly; one at every knot by default",
         examples=[16],
     )
+    spacing: Length | None = Field(
+        default=None,
+        description="m, instead of count: from one to the next along the edge as built",
+        examples=["0.5 m"],
+    )
     mass: Mass | None = Field(default=None, description="kg, of each one in air", examples=["250 g"])
     diameter: Length | None = Field(default=None, description="m, of each one, with mass", examples=["60 mm"])
     density: Density | None = Field(
@@ -62,6 +67,17 @@ class BodiesSpec(Part, ABC):
     @abstractmethod
     def sphere(self, water: float, gravity: float) -> Sphere:
         """Return one of them; water: density of the water (kg/m3), gravity: m/s2."""
+
+    def many(self, knots: int, length: float, *, closed: bool) -> int:
+        """Return how many there are along an edge of so many knots and a length (m), as near to the spacing as can be.
+
+        closed: the edge goes round; otherwise one is at either end.
+        """
+        if self.count is not None:
+            return self.count
+        if self.spacing is None:
+            return knots
+        return max(1, round(length / self.spacing)) + (not closed)
 
     def _given(self) -> Sphere | None:
         """Return one of them by its mass and diameter, None where these are not given."""

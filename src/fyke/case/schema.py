@@ -12,12 +12,14 @@ from pydantic import BeforeValidator, Field, PrivateAttr
 from ..netting.tubes import Tube
 from ..netting.twine import MATERIALS, Material, Twine
 from .added_mass import AddedMass
+from .bed import BedSpec
 from .box import BoxSpec
 from .current import Current
 from .drag import Drag, hung_solidity
 from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .grouping import GroupingSpec, choose_groups
+from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
 from .load_case import LoadCaseSpec
 from .motion import MotionSpec
 from .quantity import Quantity, wrong
@@ -105,6 +107,8 @@ Gear = Annotated[
     | BoxSpec
     | SeamSpec
     | RopeSpec
+    | LineSpec
+    | MooringsSpec
     | RingSpec
     | CollarSpec
     | SinkersSpec
@@ -152,20 +156,24 @@ class Case(Table):
     water: Water = Field(default=Water(), description="the water")
     current: Current = Field(description="the current")
     waves: WavesSpec | None = Field(default=None, description="the waves")
+    bed: BedSpec | None = Field(default=None, description="the sea bed, which bears what comes down to it")
     material: Annotated[dict[Name, MaterialSpec], BeforeValidator(_named_tables("material"))] = Field(
         default={}, description="materials of your own by name"
     )
-    twine: Annotated[dict[Name, TwineSpec], Field(min_length=1), BeforeValidator(_named_tables("twine"))] = (
-        Field(description="twines by name", examples=[{"main": {}}])
+    twine: Annotated[dict[Name, TwineSpec], BeforeValidator(_named_tables("twine"))] = Field(
+        default={}, description="twines by name", examples=[{"main": {}}]
+    )
+    chain: Annotated[dict[Name, ChainSpec], BeforeValidator(_named_tables("chain"))] = Field(
+        default={}, description="chains by name, for lines"
+    )
+    netting: Annotated[dict[Name, NettingSpec], BeforeValidator(_named_tables("netting"))] = Field(
+        default={}, description="nettings by name"
     )
     tube: Annotated[dict[Name, TubeSpec], BeforeValidator(_named_tables("tube"))] = Field(
         default={}, description="tubes by name"
     )
-    netting: Annotated[
-        dict[Name, NettingSpec], Field(min_length=1), BeforeValidator(_named_tables("netting"))
-    ] = Field(description="nettings by name")
     gear: Annotated[tuple[Gear, ...], Field(min_length=1)] = Field(
-        description="panels, shapes, ropes, rings, collars, sinkers and floats, one [[gear]] each"
+        description="panels, shapes, ropes, rings, collars, lines, sinkers and floats, one [[gear]] each"
     )
     grouping: GroupingSpec | None = Field(default=None, description="how fine the netting is laid")
     motion: tuple[MotionSpec, ...] = Field(default=(), description="how held knots move, one [[motion]] each")
@@ -233,8 +241,9 @@ class Case(Table):
 
     @property
     def twines(self) -> dict[str, Twine]:
-        """The twines of the netting, by name."""
-        return {name: spec.twine(name) for name, spec in self.twine.items()}
+        """The twines and chains of netting, ropes and lines, by name."""
+        specs: dict[str, TwineSpec | ChainSpec] = {**self.twine, **self.chain}
+        return {name: spec.twine(name) for name, spec in specs.items()}
 
     @property
     def tubes(self) -> dict[str, Tube]:
@@ -263,6 +272,11 @@ class Case(Table):
         return tuple(part for part in self.gear if isinstance(part, RopeSpec))
 
     @property
+    def lines(self) -> tuple[LaidSpec, ...]:
+        """The gear that is lines free of netting, and moorings."""
+        return tuple(part for part in self.gear if isinstance(part, LaidSpec))
+
+    @property
     def tubulars(self) -> tuple[TubularSpec, ...]:
         """The gear that is made of tubes."""
         return tuple(part for part in self.gear if isinstance(part, TubularSpec))
@@ -286,7 +300,7 @@ class Case(Table):
             outline = sheet.area(netting.mesh)
             solid += outline * hung_solidity(sheet, netting, self.twine[netting.twine].diameter)
             area += outline
-        return solid / area
+        return solid / area if area else 0.0
 
     @property
     def positions_file(self) -> Path | None:

@@ -52,6 +52,7 @@ density = 1140.0                     # kg/m3, of the fibre
 diameter = "1.5 mm"                  # or, instead of it or with it, the mass per length:
 # rtex = "2000 tex"
 # packing = 0.65                     # share of fibre in the cross-section, where rtex makes the diameter
+# lead = "1 g/m"                     # of a lead line, beside its fibre
 youngs_modulus = "1.0 GPa"           # or, instead of it, one of these laws:
 # law = { kind = "linear", youngs_modulus = "1.0 GPa" }
 # law = { kind = "power", c1 = "345.37 MPa", c2 = 1.0121 }
@@ -142,7 +143,7 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # kind = "sinkers"
 # name = "weights"
 # along = "cage.bottom"
-# count = 16                         # evenly along it, one at every knot by default
+# count = 16                         # evenly along it, or spacing = "0.5 m"; one at every knot by default
 # weight = "5 N"                     # of each one in water, with its density; or, instead, mass and diameter
 # density = 7850.0
 # drag = 0.47                        # C_D of each one
@@ -152,6 +153,69 @@ fixed = "edges"                      # edges | top | corners | none (dynamic onl
 # at = ["cage:0-0", "cage:8-0"]      # labels of knots; or along, as for sinkers
 # buoyancy = "5 N"                   # lift of each one under water, with its density
 # density = 200.0
+
+# Lines free of netting, and the sea bed, which lies at the depth of [water]:
+# [bed]
+# friction = 0.5
+# stiffness = 3e6                    # Pa per metre of sinking in
+# damping = 3e5                      # Pa s/m
+# [chain.links]                      # steel chain, which lines may name as their twine
+# bar_diameter = "13 mm"             # of the steel of its links
+# links = "studless"                 # studless | studded
+# breaking_strength = "150 kN"
+# [[gear]]
+# kind = "line"
+# name = "warp"
+# from = [6.0, 0.0, 0.0]             # a place, m, or a knot: "cage:0-0", "cage.top[0]", "footrope:3"
+# to = "left.top[0]"
+# twine = "rope"                     # or a [chain.NAME]
+# length = "6.5 m"                   # unloaded; or, instead of it:
+# pretension = "20 N"                # at its end (to), as it hangs in still water
+# segments = 20
+# pieces = [{ twine = "rope", length = "6.5 m", segments = 10 }]   # instead of twine and length
+# fixed = "both"                     # both | from | to | none: which of its ends that are places are held
+# [[gear]]
+# kind = "moorings"                  # lines as above, from anchors on the sea bed, evenly around a rim or ring
+# around = "cage.top"
+# count = 4
+# radius = "5 m"                     # of the circle of anchors
+# bearing = "45 deg"                 # of the first one, from +x turning to +y
+# twine = "rope"
+# length = "25 m"
+
+# Netting cut to shape, cages with four walls, and seams:
+# [[gear]]
+# kind = "trapezoid"                 # trapezoid | triangle (point = "down" or "up" instead of cut and lower)
+# name = "wing"
+# netting = "main"
+# meshes = [12, 6]                   # along the upper edge, along the height
+# cut = "1N2B"                       # cutting rate of both sides, or ["AN", "1N2B"], left and right
+# lower = 6                          # meshes along the lower edge; one of the two is enough
+# hanging_ratio = 0.6                # or size, width of the wide end and height
+# centre = [0.0, 0.0, -0.5]
+# [[gear]]
+# kind = "box"
+# name = "box"
+# netting = "main"
+# meshes = [8, 8, 6]                 # along x, along y, along the depth
+# size = [0.3, 0.3, 0.2]             # or hanging_ratio
+# bottom = true                      # false leaves it open
+# top = [0.0, 0.0, -0.2]             # m, middle of the upper rim
+# fixed = "top"
+# [[gear]]
+# kind = "trapezoid"
+# name = "square"
+# netting = "main"
+# meshes = [12, 4]
+# lower = 12
+# hanging_ratio = 0.6
+# centre = [0.0, 0.0, -0.26]
+# fixed = "top"
+# [[gear]]
+# kind = "seam"
+# name = "joining"
+# join = ["square.bottom", "wing.top"]
+# take_up = 1.0                      # meshes of the first edge on those of the second, 1.5 or "3:2"; 1 without it
 
 # Held knots that move, in a dynamic case; several [[motion]] of the same knots add up:
 # [[motion]]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import hypot, pi
 from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, PrivateAttr
 
 from ..netting.elastic import ElasticLaw, LinearLaw, PowerLaw, QuadraticLaw, TableLaw
-from ..netting.twine import MATERIALS, PACKING, Material, Twine, diameter_of
+from ..netting.twine import LEAD, MATERIALS, PACKING, Material, Twine, diameter_of
 from .fields import Density, Force, Length, Modulus, Share, Table, Title
 from .quantity import Quantity, wrong
 from .units import FORCE, LINEAR_DENSITY, RATIO, TIME
@@ -120,6 +121,13 @@ class TwineSpec(Table):
             examples=["2000 tex"],
         )
     )
+    lead: Annotated[float, Quantity(LINEAR_DENSITY, 0.0, 100.0, open_below=True, unit_needed=True)] | None = (
+        Field(
+            default=None,
+            description="mass of lead per length in a lead line, beside its fibre",
+            examples=["150 g/m"],
+        )
+    )
     packing: Share | None = Field(
         default=None,
         description=f"share of the cross-section that is fibre, {PACKING:g} by default; with rtex alone",
@@ -152,7 +160,8 @@ class TwineSpec(Table):
         density = self.resolved_density
         if self.given_diameter is not None or self.rtex is None or density is None:
             return self.given_diameter
-        return diameter_of(self.rtex, density, self.packing or PACKING)
+        fibre = diameter_of(self.rtex, density, self.packing or PACKING)
+        return float(hypot(fibre, diameter_of(self.lead, LEAD, 1.0))) if self.lead else fibre
 
     @property
     def diameter(self) -> float:
@@ -168,6 +177,22 @@ class TwineSpec(Table):
         if self.density is not None:
             return self.density
         return self._material.density if self._material else None
+
+    @property
+    def fibre_per_length(self) -> float:
+        """Mass of fibre per length (kg/m): as given, or all the room that the lead leaves."""
+        if self.rtex is not None:
+            return self.rtex
+        return (self.resolved_density or 0.0) * (pi / 4.0 * self.diameter**2 - (self.lead or 0.0) / LEAD)
+
+    @property
+    def mean_density(self) -> float | None:
+        """Density of fibre and lead together (kg/m3); None where the fibre's is not known."""
+        density = self.resolved_density
+        if density is None or not self.lead:
+            return density
+        fibre = self.fibre_per_length
+        return (fibre + self.lead) / (fibre / density + self.lead / LEAD)
 
     @property
     def resolved_law(self) -> ElasticLaw | None:
@@ -207,7 +232,7 @@ class TwineSpec(Table):
 
     def twine(self, name: str) -> Twine:
         """Return the twine of the netting under this name; only of a checked case."""
-        density, law = self.resolved_density, self.resolved_law
+        density, law = self.mean_density, self.resolved_law
         if density is None or law is None:
             raise ValueError(f"twine '{name}' has no density or no elastic law")
         return Twine(
@@ -219,5 +244,5 @@ class TwineSpec(Table):
             material=self.material or "",
             loss_factor=self.resolved_loss_factor,
             breaking_strength=self.breaking_strength,
-            linear_density=self.rtex,
+            linear_density=self.fibre_per_length + self.lead if self.lead else self.rtex,
         )

@@ -17,7 +17,7 @@ from .written import written
 
 if TYPE_CHECKING:
     from .check import Finding, Parts
-    from .schema import Case
+    from .schema import Case, Water
 
 # Of a time, so that a run to the very end of a file is not refused for a rounding.
 ROUNDING = 1e-9
@@ -59,6 +59,13 @@ def sea_bed_findings(parts: Parts) -> Iterator[Finding]:
             yield ("gear", index, key), found, f"gear above the sea bed at z = {-bed:g} m", cure
 
 
+def bed_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
+    """A sea bed lies at a depth."""
+    if "bed" in parts.raw and water is not None and water.depth is None:
+        allowed = "a depth in [water] beside [bed]: the bed lies that far below still water"
+        yield ("water", "depth"), "nothing", allowed, "add depth = 20.0 to [water]"
+
+
 def current_oddities(case: Case) -> Iterator[str]:
     """Sentences about a current that is allowed but looks odd; file and all keys are good."""
     current = case.current
@@ -71,7 +78,7 @@ def current_oddities(case: Case) -> Iterator[str]:
         )
     last = current.lowest
     heights = [piece.heights(case.netting[piece.netting]) for piece in case.pieces]
-    deepest = -min(height[0] for height in heights if height is not None)
+    deepest = -min((height[0] for height in heights if height is not None), default=0.0)
     if last is not None and deepest > last:
         yield (
             f"The current is given down to {last:g} m and the gear reaches {deepest:.4g} m; below its last depth "

@@ -82,13 +82,17 @@ def opened(file: Path) -> tuple[Path, Result]:
 def case_of(result: Result) -> Case | None:
     """Return the case behind a result, None for a net made in Python and a case of another version.
 
-    None also where the file of its current is gone; it is looked for from the present folder.
+    None also where a file of its current or of a motion is gone; they are looked for from the present folder.
     """
     try:
         case = recorded_case(result.case_text) if result.case_text else None
-        return case if case is not None and case.current.flow() else None
+        if case is not None:
+            case.current.flow()
+            for motion in case.motion:
+                motion.record()
     except CaseError:
         return None
+    return case
 
 
 def taken(target: Path, source: Path, *, overwrite: bool) -> Problem | None:

@@ -14,6 +14,7 @@ from ..results import (
     audit,
     compare,
     flow_direction,
+    line_figures,
     moments,
     out_of_range,
     part_figures,
@@ -110,6 +111,7 @@ def _figures(result: Result, case: Case | None, system: System | None) -> dict[s
     if system is not None:
         depth = None if case is None else case.water.depth
         figures |= water_figures(system, result) | part_figures(system, result, depth=depth)
+        figures |= line_figures(system, result)
         figures |= rings_told(system, result)
         warnings += hanging(system, static=case is not None and case.solve.kind == "static")
         warnings += out_of_range(system, moments(result)).warnings

@@ -20,6 +20,7 @@ from ..results import (
     audit,
     compare,
     flow_direction,
+    line_figures,
     load,
     load_figures,
     mean_current,
@@ -32,6 +33,7 @@ from ..results import (
     save_checkpoint,
     summary,
     water_figures,
+    write_lines,
     write_loads,
     write_parts,
     write_probes,
@@ -39,6 +41,7 @@ from ..results import (
     write_summary,
     write_tables,
 )
+from ..results.lines import line_words
 from ..results.parts import part_words
 from ..results.rings import ring_words
 from ..results.water import water_words
@@ -183,6 +186,8 @@ def _solve_and_write(
     with timed("writing"):
         write_tables(result, folder)
         write_parts(figures["parts"], folder)
+        if "lines" in figures:
+            write_lines(figures["lines"], folder)
         write_rings(figures.get("rings", []), folder)
         write_summary(figures, folder)
         if probes is not None:
@@ -263,6 +268,7 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
+    figures |= line_figures(system, result)
     figures |= rings_told(system, result)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
@@ -332,6 +338,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("largest displacement", quantity(figures["max_displacement"], "m")),
         *water_words(figures),
         *part_words(figures),
+        *line_words(figures),
         *ring_words(figures),
         *_account_rows(figures),
         ("solver", methods),

@@ -19,8 +19,9 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from ..system.bed import CREEP, SOFT, Bed, footprint
+from ..netting.net import Net
 from ..system.system import System
+from ..water.bed import CREEP, SOFT, Bed
 from .compiled import OPTIONS
 
 Array = NDArray[np.float64]
@@ -119,3 +120,21 @@ class OnBed:
     ) -> None:
         """Add the tangent to the data of a sparse matrix, as forces.part says."""
         add_blocks(c0, c1, self.by_x, self.by_v, symmetric, *places, data)
+
+
+def footprint(net: Net) -> tuple[Array, Array, Array]:
+    """Return how each knot of a net stands on ground: area (m2), diameter (m) and radius of its body (m), (n,) each.
+
+    Half of every bar is at each of its ends. Bodies touch the ground by their radius; bars by their middle, so that an
+    anchor is at the depth itself.
+    """
+    n, ends = net.knot_count, net.bars
+    area, diameter, radius = np.zeros(n), net.knot_diameter.copy(), np.zeros(n)
+    np.add.at(area, ends, (0.5 * net.bar_diameter * net.rest_length)[:, None])
+    area += np.pi / 4.0 * net.knot_diameter**2
+    np.maximum.at(diameter, ends, net.bar_diameter[:, None])
+    for one in net.bodies:
+        np.add.at(area, one.knots, np.pi / 4.0 * one.diameter**2)
+        np.maximum.at(diameter, one.knots, one.diameter)
+        np.maximum.at(radius, one.knots, 0.5 * one.diameter)
+    return area, diameter, radius

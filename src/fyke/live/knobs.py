@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..case.gear import PanelSpec, Part
+from ..case.box import BoxSpec
+from ..case.gear import FlatSpec, Part
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..case.shapes import RoundSpec
@@ -50,8 +51,10 @@ def knobs_of(case: Case) -> tuple[Knob, ...]:
     for name in case.netting:
         knobs += _netting(case, name)
     for index, part in enumerate(case.gear):
-        if isinstance(part, PanelSpec):
+        if isinstance(part, FlatSpec):
             knobs += _panel(part, index)
+        elif isinstance(part, BoxSpec):
+            knobs += _ratio(part.hanging_ratio, index, _group(part))
         elif isinstance(part, RoundSpec):
             knobs += _round(part, index)
         elif isinstance(part, BodiesSpec):
@@ -154,7 +157,7 @@ def _put(index: int, name: str) -> Callable[[Raw, float], None]:
     return put
 
 
-def _panel(spec: PanelSpec, index: int) -> list[Knob]:
+def _panel(spec: FlatSpec, index: int) -> list[Knob]:
     key, group = f"gear.{index}", _group(spec)
     if spec.given_size is None:
         return _ratio(spec.hanging_ratio, index, group)

@@ -40,11 +40,9 @@ def hanging_line(
     if bed is not None and end[2] <= bed < begin[2]:
         turned = hanging_line(end, begin, length[::-1], weight[::-1], stiffness[::-1], bed=bed)
         return np.asarray(turned[::-1])
-    across = end - begin
-    reach = float(np.hypot(across[0], across[1]))
-    forward = np.array([across[0], across[1], 0.0]) / reach if reach > 0.0 else np.array([1.0, 0.0, 0.0])
-    lies = bed is not None and begin[2] <= bed and bool(np.all(weight >= 0.0))
-    tension, size = _tension(length, weight, stiffness, reach, float(across[2]), lies=lies)
+    reach, forward = _reach(begin, end)
+    lies = _lies(begin, weight, bed)
+    tension, size = _tension(length, weight, stiffness, reach, float(end[2] - begin[2]), lies=lies)
     down = lies & (tension[1] <= 0.0)
     stretched = length * np.where(down, 1.0, 1.0 + size / stiffness)
     steps = stretched * tension / size
@@ -56,6 +54,28 @@ def hanging_line(
     if bed is not None:
         places[1:-1, 2] = np.maximum(places[1:-1, 2], bed)
     return places
+
+
+def end_tension(
+    begin: Array, end: Array, length: Array, weight: Array, stiffness: Array, *, bed: float | None = None
+) -> float:
+    """Return the tension (N) at the end of the line of `hanging_line`, half of the last bar's weight included."""
+    lies = _lies(begin, weight, bed)
+    reach, _ = _reach(begin, end)
+    (h, v), _ = _tension(length, weight, stiffness, reach, float(end[2] - begin[2]), lies=lies)
+    return float(np.hypot(h[-1], v[-1] + 0.5 * weight[-1]))
+
+
+def _reach(begin: Array, end: Array) -> tuple[float, Array]:
+    """Horizontal distance (m) from begin to end, and the unit vector (3,) of that way."""
+    across = end - begin
+    reach = float(np.hypot(across[0], across[1]))
+    return reach, np.array([across[0], across[1], 0.0]) / reach if reach > 0.0 else np.array([1.0, 0.0, 0.0])
+
+
+def _lies(begin: Array, weight: Array, bed: float | None) -> bool:
+    """Whether the line may lie on the bed from its beginning on."""
+    return bed is not None and float(begin[2]) <= bed and bool(np.all(weight >= 0.0))
 
 
 def _sums(steps: Array, forward: Array) -> Array:

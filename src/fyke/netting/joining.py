@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .lattice import Corner, Side
-from .net import Net
+from .net import Net, Panel
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -64,50 +64,72 @@ def joined(net: Net, stays: ArrayLike, goes: ArrayLike, shared: ArrayLike = 1.0)
 def with_shared_bars(net: Net) -> Net:
     """Return the net in which panels that share two neighbouring knots share the bar between them as well.
 
-    The bar is that of the first such panel, all its segments; the others and the places within them go.
+    The bar is that of the first such panel, all its segments; the others and the places within them go. ValueError for
+    panels whose bars have different numbers of segments.
     """
-    chains = [panel.bars for panel in net.panels]
-    ends = np.sort(np.concatenate([panel.knots[panel.lattice.bars] for panel in net.panels]), axis=1)
-    if len({chain.shape[1] for chain in chains}) > 1:
+    if len({panel.bars.shape[1] for panel in net.panels}) > 1:
         raise ValueError("panels whose bars are cut into different numbers of segments share no bars")
-    every = np.concatenate(chains)
+    worn = np.zeros(net.knot_count, dtype=np.int64)
+    for panel in net.panels:
+        there = np.zeros(net.knot_count, dtype=np.int64)
+        there[panel.knots] = 1
+        worn += there
+    places = [_between(panel, worn > 1) for panel in net.panels]
+    ends = np.sort(
+        np.concatenate([p.knots[p.lattice.bars[at]] for p, at in zip(net.panels, places, strict=True)])
+    )
+    every = np.concatenate([panel.bars[at] for panel, at in zip(net.panels, places, strict=True)])
     _, first, which = np.unique(
         ends[:, 0] * net.knot_count + ends[:, 1], return_index=True, return_inverse=True
     )
     own = every[first[which]]
+    if np.array_equal(own, every):
+        return net
     turned = net.bars[own[:, 0], 0] != net.bars[every[:, 0], 0]
     own[turned] = own[turned, ::-1]
-    gone = np.setdiff1d(every, own)
-    # Places within bars that go belong to nothing else.
-    ties = np.bincount(net.bars.ravel(), minlength=net.knot_count)
-    loose = np.bincount(net.bars[gone].ravel(), minlength=net.knot_count)
-    stays = (ties == 0) | (ties > loose)
-    place, number = np.cumsum(stays) - 1, np.cumsum(~np.isin(np.arange(net.bar_count), gone)) - 1
-    left = np.setdiff1d(np.arange(net.bar_count), gone)
+    bars = [panel.bars.copy() for panel in net.panels]
+    for table, at, found in zip(
+        bars, places, np.split(own, np.cumsum([len(at) for at in places])[:-1]), strict=True
+    ):
+        table[at] = found
     # Of the real bars that two stand for along the seam, one is shared.
+    # Those along the seam of one panel are in it twice.
+    different, once = np.unique(every[:, 0], return_index=True)
+    alike, summed = np.bincount(which[once]), np.bincount(which[once], net.bar_multiple[different])
     many = net.bar_multiple.copy()
-    alike = np.bincount(which)
-    many[every[first]] = (np.bincount(which, net.bar_multiple[every[:, 0]]) - (alike - 1))[:, None]
-    rows = np.split(number[own], np.cumsum([len(chain) for chain in chains])[:-1])
+    many[every[first]] = (summed - (alike - 1))[:, None]
+    panels = tuple(replace(panel, bars=table) for panel, table in zip(net.panels, bars, strict=True))
+    return _without(replace(net, panels=panels, bar_multiple=many), np.setdiff1d(every, own))
+
+
+def _between(panel: Panel, shared: NDArray[np.bool_]) -> Indices:
+    """Lattice bars of a panel between two knots that it shares with others."""
+    return np.flatnonzero(shared[panel.knots[panel.lattice.bars]].all(axis=1))
+
+
+def _without(net: Net, bars: Indices) -> Net:
+    """Return the net without some of its bars, and without the knots that nothing else ties."""
+    stays = np.ones(net.bar_count, dtype=bool)
+    stays[bars] = False
+    ties, loose = (np.bincount(each.ravel(), minlength=net.knot_count) for each in (net.bars, net.bars[bars]))
+    tied = (ties == 0) | (ties > loose)
+    knot, bar = np.cumsum(tied) - 1, np.cumsum(stays) - 1
     return replace(
         net,
-        positions=net.positions[stays],
-        labels=tuple(label for label, stay in zip(net.labels, stays.tolist(), strict=True) if stay),
-        fixed=net.fixed[stays],
-        bars=place[net.bars[left]],
-        rest_length=net.rest_length[left],
-        twine_of_bar=net.twine_of_bar[left],
-        knot_diameter=net.knot_diameter[stays],
-        knot_density=net.knot_density[stays],
-        load=net.load[stays],
-        bar_multiple=many[left],
-        knot_multiple=net.knot_multiple[stays],
-        panels=tuple(
-            replace(one, knots=place[one.knots], bars=bars)
-            for one, bars in zip(net.panels, rows, strict=True)
-        ),
-        ropes=tuple(replace(one, knots=place[one.knots], bars=number[one.bars]) for one in net.ropes),
-        bodies=tuple(replace(one, knots=place[one.knots]) for one in net.bodies),
+        positions=net.positions[tied],
+        labels=tuple(label for label, stay in zip(net.labels, tied.tolist(), strict=True) if stay),
+        fixed=net.fixed[tied],
+        bars=knot[net.bars[stays]],
+        rest_length=net.rest_length[stays],
+        twine_of_bar=net.twine_of_bar[stays],
+        knot_diameter=net.knot_diameter[tied],
+        knot_density=net.knot_density[tied],
+        load=net.load[tied],
+        bar_multiple=net.bar_multiple[stays],
+        knot_multiple=net.knot_multiple[tied],
+        panels=tuple(replace(one, knots=knot[one.knots], bars=bar[one.bars]) for one in net.panels),
+        ropes=tuple(replace(one, knots=knot[one.knots], bars=bar[one.bars]) for one in net.ropes),
+        bodies=tuple(replace(one, knots=knot[one.knots]) for one in net.bodies),
     )
 
 

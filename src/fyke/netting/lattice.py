@@ -101,7 +101,7 @@ def lattice(mesh: Mesh, meshes: tuple[int, int], taper: Taper | None = None) -> 
         bars.append(pairs[pairs[:, 1] >= 0])
     all_bars = np.concatenate(bars)
     # Bars in the order of their first knot, so that neighbours in space are neighbours in memory.
-    order = np.lexsort((all_bars[:, 1], all_bars[:, 0]))
+    order = np.argsort(all_bars[:, 0] * len(i) + all_bars[:, 1], kind="stable")
     sides = None
     if taper is not None:
         left, right = (index[path[:, 0], path[:, 1]] for path in taper.paths(mesh, (ni, nj)))

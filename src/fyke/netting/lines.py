@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
 
-from .catenary import hanging_line
+from .catenary import end_tension, hanging_line
 from .joining import joined
 from .line import line
 from .net import Net, Rope
@@ -18,6 +19,7 @@ from .twine import Twine
 Array = NDArray[np.float64]
 End = int | tuple[float, float, float]
 
+LONGEST_STRAIN, LONGER = 0.2, 1.01  # of a line made by its pretension; step in which its length is looked for
 LAW_STRAIN = 0.01  # strain at which the secant of an elastic law stands for EA while a line is laid
 
 
@@ -71,7 +73,7 @@ def with_line(
     n, m = made.knot_count, made.bar_count
     made = replace(
         made,
-        labels=tuple(f"{name}:{label}" for label in made.labels),
+        labels=tuple(f"{name}:{label}" if name else label for label in made.labels),
         twines=twines,
         twine_of_bar=np.repeat([twines.index(piece.twine) for piece in pieces], segments),
         ropes=(Rope(name, np.arange(n), np.arange(m), "line"),),
@@ -82,6 +84,49 @@ def with_line(
     made.fixed[[at for _, at in tied]] = False
     stays, goes = [knot for knot, _ in tied], [net.knot_count + at for _, at in tied]
     return joined(together([net, made]), stays, goes)
+
+
+def length_for(
+    pretension: float,
+    begin: ArrayLike,
+    end: ArrayLike,
+    twine: Twine,
+    segments: int,
+    *,
+    water: float = 1000.0,
+    gravity: float = 9.81,
+    bed: float | None = None,
+) -> float:
+    """Return the unloaded length (m) of a line that has a tension of pretension (N) at its end as it hangs at rest.
+
+    Of two such lengths, taut and slack, the taut one; other arguments as of `with_line`. ValueError where every line
+    between these places has less or more.
+    """
+    first, last = np.array(begin, dtype=float), np.array(end, dtype=float)
+    way, one = float(np.linalg.norm(last - first)), np.ones(segments) / segments
+    weight, stiffness = weight_per_metre(twine, water, gravity), np.full(segments, _stiffness(twine))
+
+    def surplus(length: float) -> float:
+        pull = end_tension(first, last, length * one, weight * length * one, stiffness, bed=bed)
+        return pull - pretension
+
+    taut = way / (1.0 + LONGEST_STRAIN)
+    if not (way > 0.0 and surplus(taut) > 0.0):
+        raise ValueError(
+            f"no line of twine '{twine.name}' between these places has {pretension:g} N at its end"
+        )
+    short, least = taut, surplus(taut)
+    while True:
+        long = short * LONGER
+        now = surplus(long)
+        if now <= 0.0:
+            return float(brentq(surplus, short, long, xtol=1e-9 * way))
+        if now >= least:
+            low = least + pretension
+            raise ValueError(
+                f"every line of twine '{twine.name}' between these places has {low:.4g} N or more at its end"
+            )
+        short, least = long, now
 
 
 def weight_per_metre(twine: Twine, water: float, gravity: float) -> float:

@@ -80,7 +80,7 @@ def sheet(
     own, knots = _own_knots(grid, closed, tip)
     ends, bars = _own_bars(grid, knots, closed)
     prefix = f"{name}:" if name else ""
-    labels = [f"{prefix}{i}-{j}" for i, j in few.labels(grid.knots[own]).tolist()]
+    labels = _labels(prefix, few.labels(grid.knots[own]))
     positions, held = (
         surface(at[own] - 0.5 * intervals, intervals),
         grid.held(fixed, closed=closed)[own],
@@ -135,6 +135,13 @@ def sheet(
         bar_multiple=np.repeat(bar_multiple, s),
         knot_multiple=np.concatenate([many[own], np.ones(inner_count)]),
     )
+
+
+def _labels(prefix: str, knots: Indices) -> list[str]:
+    """Labels "i-j" of lattice knots (n, 2), put together from those of columns and rows: a million take long."""
+    columns, rows = ([str(k) for k in range(int(last) + 1)] for last in knots.max(axis=0))
+    columns = [f"{prefix}{column}-" for column in columns]
+    return [columns[i] + rows[j] for i, j in zip(knots[:, 0].tolist(), knots[:, 1].tolist(), strict=True)]
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from .elastic import ElasticLaw
 KSI = 6.894757e6  # Pa, 1000 pounds of force per square inch
 # Share of a twine's cross-section that is fibre: the middle of 0.6 to 0.7, remembered from netting books, none opened.
 PACKING = 0.65
+LEAD = 11340.0  # kg/m3, density of lead: textbook value
 
 
 @dataclass(frozen=True)

@@ -42,15 +42,15 @@ def sections(
     The cut stands upright through the middle of the netting as built, along the current (3,) m/s, else along the waves
     (3,), else along x. From above there are rows of knots, named by the height at which they were built.
     """
-    result = carried(result)
     net = result.net
     closed = [which for which, panel in enumerate(net.panels) if panel.closed]
     if not closed:
         return None
     flow, words = _flow(current, waves)
     triangles = _triangles(net, closed + _floors(net, closed))
-    middle = 0.5 * np.sum([f(net.positions[np.unique(triangles)], axis=0) for f in (np.min, np.max)], axis=0)
-    shapes = net.positions, result.position[-1]
+    built = carried(result).net.positions
+    middle = 0.5 * np.sum([f(built[np.unique(triangles)], axis=0) for f in (np.min, np.max)], axis=0)
+    shapes = built, result.position[-1]
     cuts = [_cut(x, triangles, middle, flow) for x in shapes]
     rows = _rows(net, closed)
     rings = [[x[knots][:, :2] for x in shapes] for _, knots in rows]

@@ -5,6 +5,7 @@ from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkp
 from .compare import Comparison, MeasurementError, compare
 from .derive import summary
 from .layout import frame_bytes
+from .lines import LineFigures, by_line, line_figures, write_lines
 from .loads import LoadRow, PartLoad, load_figures, load_row, worst_of, write_loads
 from .parts import PartFigures, by_part, part_figures, write_parts
 from .probes import Probes, probe, probes_of, write_probes
@@ -20,6 +21,7 @@ __all__ = [
     "CheckpointError",
     "Comparison",
     "EnergyBudget",
+    "LineFigures",
     "LoadRow",
     "MeasurementError",
     "OutOfRange",
@@ -30,11 +32,13 @@ __all__ = [
     "ResultError",
     "RingFigures",
     "audit",
+    "by_line",
     "by_part",
     "compare",
     "flow_direction",
     "frame_bytes",
     "frames_of",
+    "line_figures",
     "load",
     "load_checkpoint",
     "load_figures",
@@ -52,6 +56,7 @@ __all__ = [
     "summary",
     "water_figures",
     "worst_of",
+    "write_lines",
     "write_loads",
     "write_parts",
     "write_probes",

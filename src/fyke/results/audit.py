@@ -125,6 +125,7 @@ def audit(system: System, result: Result) -> Audit:
     """
     if result.net.labels != system.net.labels or not np.array_equal(result.net.bars, system.net.bars):
         raise ValueError("the result is of another net than the system")
+    system = as_solved(system, result)
     last, el = result.frame(), system.elements
     mass, added_mass = _masses(system, last)
     load = last.water_force + el.weight + _of_parts(system, last)
@@ -141,6 +142,11 @@ def audit(system: System, result: Result) -> Audit:
         inertia_force=_of_moving_water(system, last)[1].sum(axis=0),
         energy=_energy_budget(system, result) if len(result.time) > 1 else None,
     )
+
+
+def as_solved(system: System, result: Result) -> System:
+    """Return the system as the solver of a result took it."""
+    return system.resting() if result.outcome.solver.startswith("static") else system
 
 
 def forces_on_knots(system: System, frame: Frame) -> Array:

@@ -38,7 +38,7 @@ def held_inertia(system: System, frame: Frame) -> HeldInertia:
     bar_geometry(frame.position, el, t, length)
     area = np.array([one.area for one in net.twines])[net.twine_of_bar]
     density = np.array([one.soaked_density(system.water.density) for one in net.twines])[net.twine_of_bar]
-    half = 0.5 * density * area * net.rest_length
+    half = 0.5 * density * area * net.bar_multiple * net.rest_length
     own = el.knot_mass.copy()
     for end in net.bars.T:
         across = a[end] - np.einsum("eq,eq->e", a[end], t)[:, None] * t

@@ -9,7 +9,7 @@ their weight and of the water on them, what acts on its own knots and, where hel
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from ..solve.result import Result
 from ..system.system import System
 from .derive import drag_and_lift
 from .moved import HeldInertia, held_inertia
+from .rings import ring_figures
 from .tables import write_table
 from .volume import volume_history
 from .water import flow_direction
@@ -45,8 +46,8 @@ class PartFigures:
     without a flow; weight_in_water: N, under water; support_reaction: (3,) N, of the part on the supports;
     max_tension: N, max_tension_bar: its number and max_tension_bar_label its knots, None where all are slack;
     peak_tension: N, the largest of all frames; utilisation: largest of all frames over the breaking strength of its
-    twine, None where none is known; slack_bars: slack along their whole length; clearance: m, smallest height of all
-    frames above the sea bed, None without a depth.
+    twine, of a ring its stress over the yield stress, None where none is known; slack_bars: slack along their whole
+    length; clearance: m, smallest height of all frames above the sea bed, None without a depth.
     """
 
     kind: str
@@ -180,11 +181,13 @@ def by_part(system: System, result: Result, *, depth: float | None = None) -> tu
         name: _summed(len(pieces), bar_owner, a) + _summed(len(pieces), knot_owner, b)
         for name, (a, b) in sums.items()
     }
+    used = {(one.kind, one.name): one.utilisation for one in ring_figures(system, result)}
     told = [
         _of_piece(system, result, piece, {name: total[number] for name, total in totals.items()}, depth)
         for number, piece in enumerate(pieces)
         if piece.kind != OTHERS or piece.chains.size or piece.knots.size
     ]
+    told = [replace(one, utilisation=used.get((one.kind, one.name), one.utilisation)) for one in told]
     return (*told, *_of_bodies(system, result, loads, inertia, depth))
 
 
@@ -228,7 +231,9 @@ def _of_piece(
         max_tension_bar_label=None if bar is None else net.bar_label(bar),
         peak_tension=float(peak.max(initial=0.0)),
         utilisation=float(np.max(peak / strength)) if np.isfinite(strength).any() else None,
-        slack_bars=int(np.count_nonzero(last[piece.chains].max(axis=1, initial=0.0) <= 0.0)),
+        slack_bars=int(
+            np.count_nonzero(np.all((last <= 0.0)[piece.chains] & ~net.two_way[piece.chains], axis=1))
+        ),
         clearance=_clearance(result, piece.knots, 0.0, depth),
     )
 
@@ -307,12 +312,14 @@ def part_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
         words = f"{now:.4g} of {built:.4g} m³, {100.0 * (1.0 - now / built):.3g} % lost"
         rows.append(("volume", words + (f", {least:.4g} m³ at least" if least < now else "")))
     if "clearance" in figures:
-        rows.append(("clearance to the sea bed", f"{figures['clearance']:.4g} m"))
+        height = figures["clearance"]
+        words = f"{height:.4g} m" if height > 0.0 else f"none, it reaches {-height:.2g} m into it"
+        rows.append(("clearance to the sea bed", words))
     used = [part for part in figures.get("parts", ()) if part["utilisation"] is not None]
     if used:
         most = max(used, key=lambda part: float(part["utilisation"]))
         where = f"{most['kind']} {most['name']}".rstrip()
-        rows.append(("largest use of breaking strength", f"{100.0 * most['utilisation']:.3g} %, {where}"))
+        rows.append(("largest use of strength", f"{100.0 * most['utilisation']:.3g} %, {where}"))
     return rows
 
 

@@ -68,7 +68,8 @@ class Work:
 class Equilibrium:
     """Positions about the net's middle, the forces there, and how often the tangent was factorized.
 
-    follows: the shelter is that of the present shape at every step; else it is held until it is renewed.
+    follows: the shelter is that of the present shape at every step; else it is held until it is renewed. smoothing: of
+    a warm start with carried tensions, see solve.warm_field, None for the usual.
     """
 
     def __init__(self, system: System, start: State, linear: Factorizer | None) -> None:
@@ -84,6 +85,7 @@ class Equilibrium:
         self.u = self.x
         self.b = Work.of(len(self.x), len(self.el.knot_a), self.pattern)
         self.iterations = self.factorizations = 0
+        self.smoothing: tuple[float, float] | None = None
         self.residual, self.worst = self.true_residual()
         self.good = self.x.copy()
 

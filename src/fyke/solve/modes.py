@@ -12,7 +12,7 @@ further runs across the modes already found look for what was missed, until noth
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -27,7 +27,6 @@ from ..forces.inertia import mass_matrices
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import System
-from .engines import falling
 from .equilibrium import ROUNDING
 from .linear import Pattern, Solve, factorizer
 
@@ -40,8 +39,6 @@ DENSE = 150
 SAME = 1e-8
 # Squares of frequencies so many times below the rounding of the stiffness are no rounding: the net leaves by itself.
 NOISE = 100.0
-# Stiffness, over the largest, that counts as none.
-NEUTRAL = 1e-12
 UNSTABLE = "this equilibrium is not stable: a tube buckles, or something turns over, when it is touched"
 
 
@@ -84,7 +81,7 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     x = np.ascontiguousarray(position, dtype=float)
     _check(system, x, count)
     n = system.net.knot_count
-    el, pattern, data, loose = _stiffness(system, x)
+    el, pattern, data, loose = stiffness_of(system, x)
     stiffness = pattern.matrix(data)
     mass = _mass_matrix(x - x.mean(axis=0), el, pattern)
     size = stiffness.shape[0]
@@ -97,10 +94,10 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
         except LinAlgError as error:
             raise ValueError(UNSTABLE) from error
     else:
-        solve = _inverse(stiffness, mass, shift, pattern)
+        solve = inverse(stiffness, mass, shift, pattern)
         # Lanczos' short BLAS products gain nothing from threads, which would fight with those of the solves.
         with threadpool_limits(1, user_api="blas"):
-            square, vectors = _lowest(solve, mass, shift, count)
+            square, vectors = lowest(solve, mass, shift, count)
     if el.two_way.any() and square.min(initial=0.0) < -NOISE * shift:
         raise ValueError(UNSTABLE)
     shape = np.zeros((count, n, 3))
@@ -108,27 +105,10 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     return Modes(np.sqrt(np.where(square > shift, square, 0.0)), _scaled(shape), loose)
 
 
-def stability_warnings(system: System, position: Array) -> tuple[str, ...]:
-    """One sentence where an equilibrium at position (n, 3) m of a net with tubes is not stable under loads that stay.
-
-    None where nothing can push, and where no solver at hand counts the directions in which a matrix has no stiffness.
-    """
-    if not system.elements.two_way.any():
-        return ()
-    _, pattern, data, _ = _stiffness(system, position)
-    begin, stride = pattern.diagonal[pattern.free].T
-    own = begin + np.arange(3)[:, None] * (stride + 1)
-    # What has no stiffness at all is none of the matter, as a ring that may turn.
-    data[own] += NEUTRAL * float(data[own].max(initial=0.0))
-    if not falling(pattern, data):
-        return ()
-    return (f"{UNSTABLE}; begin from a shape that is bent, or let it move in a dynamic case",)
-
-
-def _stiffness(system: System, position: Array) -> tuple[Elements, Pattern, Array, Knots]:
+def stiffness_of(system: System, position: Array) -> tuple[Elements, Pattern, Array, Knots]:
     """Elements with loose knots held, and the stiffness of the net (N/m) as data of a pattern; the loose knots."""
     still = np.zeros_like(position)
-    around = Surroundings(replace(system, waves=None))
+    around = Surroundings(system.resting())
     el, _ = around.at(position, still, 0.0)
     # About the net's middle, coordinates are smallest and so is their rounding.
     x = position - position.mean(axis=0)
@@ -213,7 +193,7 @@ def _all(stiffness: sp.csc_matrix, mass: sp.bsr_matrix, shift: float, count: int
     return 1.0 / inverse[::-1] - shift, vectors.T[::-1]
 
 
-def _inverse(stiffness: sp.csc_matrix, mass: sp.bsr_matrix, shift: float, pattern: Pattern) -> Solve:
+def inverse(stiffness: sp.csc_matrix, mass: sp.bsr_matrix, shift: float, pattern: Pattern) -> Solve:
     """Solve with K + shift M."""
     data = stiffness.data.copy()
     start, stride = pattern.diagonal[pattern.free].T[:, :, None, None]
@@ -222,7 +202,7 @@ def _inverse(stiffness: sp.csc_matrix, mass: sp.bsr_matrix, shift: float, patter
     return factorizer(pattern, useless=np.inf).factor(data)
 
 
-def _lowest(solve: Solve, mass: sp.bsr_matrix, shift: float, count: int) -> tuple[Array, Array]:
+def lowest(solve: Solve, mass: sp.bsr_matrix, shift: float, count: int) -> tuple[Array, Array]:
     """Lowest eigenvalues (count,) and eigenvectors (count, size), M-orthonormal, by solves with K + shift M."""
     size = mass.shape[0]
     random = np.random.default_rng(0)

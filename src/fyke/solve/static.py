@@ -26,12 +26,12 @@ from .equilibrium import Equilibrium
 from .far_field import Far
 from .held_shelter import by_renewals
 from .linear import Factorizer, SingularMatrixError
-from .modes import stability_warnings
 from .near_field import Near
 from .nested import Nested, nested_start
 from .outcome import Outcome, Verdict, out_of_memory
 from .relaxation import relax
 from .result import Result
+from .stability import settle
 from .strain import strain_warnings
 from .warm_field import Warm
 
@@ -45,7 +45,7 @@ NEARER, LEAST_NEAR = 1e-3, 1e-8
 # Steps shorter than SHORT, so many in a row, are a stall.
 SHORT, SHORT_STEPS = 1e-2, 5
 # A warm start that is not there after so many iterations was none: the solve begins anew.
-WARM_STEPS = 25
+WARM_STEPS = 45
 # The interior point arrives within so many iterations, or most often not at all: then the net relaxes in time.
 PATIENCE = 50
 # Floating parts that are named one by one.
@@ -78,17 +78,15 @@ def solve_static(
             "a net that is towed has its equilibrium as it is seen from what tows it: "
             "solve fyke.system.carriage.seen_from_the_carriage(system)"
         )
-    system = replace(
-        system,
-        waves=None,
-        motion=None,
-        bed=system.bed and replace(system.bed, laid=system.net.positions[:, :2]),
-    )
+    system = system.resting()
     begin = _begin(system, tolerance, max_iterations, start)
     nest = _nested(system, begin, tolerance, on_progress)
     begin = nest.start if nest else begin
     s = Equilibrium(system, begin, linear)
+    if nest:
+        s.smoothing = nest.smoothing
     loose = loose_parts(system)
+    unstable: tuple[str, ...] = ()
     if loose:
         name, message, advice = _floating(system, loose)
     elif not np.isfinite(s.residual):
@@ -103,6 +101,9 @@ def solve_static(
                 name, message, advice = by_renewals(
                     s, tolerance, begin.tension, lambda to, f: _iterate(s, to, max_iterations, f, on_progress)
                 )
+            if name == "converged":
+                more, unstable = settle(s, tolerance, max_iterations)
+                message += f", {more} more to leave an equilibrium that is not stable" if more else ""
         except KeyboardInterrupt:
             name, message, advice = _interrupted(s)
         except MemoryError as error:
@@ -123,8 +124,7 @@ def solve_static(
         factorizations=s.factorizations,
         residual=frame.unbalanced_force,
         wall_time=time.perf_counter() - began,
-        warnings=strain_warnings(system.net, [frame])
-        + (stability_warnings(system, state.position) if name == "converged" else ()),
+        warnings=strain_warnings(system.net, [frame]) + unstable,
     )
     return Result.from_frames(system.net, outcome, system.weight_in_water, [frame], system.case_text)
 

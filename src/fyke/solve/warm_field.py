@@ -39,7 +39,7 @@ class Warm:
         self.s = s
         mean = float(np.abs(tension).mean()) if np.any(tension > 0.0) else typical_tension(s.el, s.b.load)
         apart = float(np.abs(tension - borne(s.b.f, s.el)).mean())
-        smoothing, self.shrink = OWN if apart < CLOSE * mean else CARRIED
+        smoothing, self.shrink = OWN if apart < CLOSE * mean else s.smoothing or CARRIED
         # Of a net without any load or tension the size has only to be a number whose square is one.
         self.size = max(smoothing * mean, float(np.finfo(float).tiny) ** 0.25)
         self.least = LEAST * self.size

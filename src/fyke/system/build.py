@@ -13,13 +13,13 @@ from ..netting.faces import faces_of
 from ..netting.net import Net
 from ..netting.together import together
 from ..netting.twine import MATERIALS, Twine
+from ..water.bed import Bed
 from ..water.current import Current, UniformCurrent
 from ..water.inertia import AddedMassLaw
 from ..water.laws import Law
 from ..water.laws.bars import ConstantBar
 from ..water.laws.knots import ConstantKnot
 from ..water.waves import Waves
-from .bed import Bed
 from .curves import CONSTANT_BARS, NONE, bar_curves, knot_curve
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
@@ -36,11 +36,11 @@ NOT_READ = "-"  # of a law that has nothing to be read
 
 
 def build_net(case: Case) -> Net:
-    """Make the net of a case: all its netting in the order of the file, then rings of their own, then the rest."""
+    """Make the net of a case: its netting and rings of their own as the file has them, then the rest."""
     twines = case.twines
     made = [(piece, case.netting[piece.netting]) for piece in case.pieces]
-    laid = [piece.lay(netting, twines[netting.twine]) for piece, netting in made]
-    return rigged(together([*laid, *free_rings(case)]), case)
+    laid = [piece.lay(netting, twines[netting.twine]) for piece, netting in made] + free_rings(case)
+    return rigged(together(laid) if laid else None, case)
 
 
 def build_system(net: Net, case: Case) -> System:
@@ -53,6 +53,7 @@ def build_system(net: Net, case: Case) -> System:
         coefficients=_coefficients(case),
         waves=_waves(case),
         surface=True,
+        bed=case.bed.ground(water.depth) if case.bed and water.depth else None,
     )
     return replace(system, case_text=case.text, motion=motion_of(net, case))
 
@@ -210,6 +211,12 @@ def _sources(net: Net, c: Coefficients, damping: Array, waves: Waves | None) -> 
         _mass_source(c),
         *_wave_sources(waves),
         *(f"elastic law of twine '{t.name}': {t.law.describe()}" for t in net.twines),
+        *(
+            f"bending of '{t.name}': EI = {t.bending_stiffness:.4g} N m2, discrete elastic rods (M. Bergou et al., ACM "
+            "Trans. Graph. 27(3), 63, 2008, not opened; derived here and checked)"
+            for t in net.twines
+            if t.bending_stiffness > 0.0
+        ),
         *(
             f"damping of twine '{t.name}': {_damping(t, damping[net.twine_of_bar == i])}"
             for i, t in enumerate(net.twines)

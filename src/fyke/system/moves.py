@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from ..case.errors import CaseError, Problem
 from ..case.motion import MotionRecord, MotionSpec
 from ..case.schema import Case
-from ..netting.named import is_gear, knots_named
 from ..netting.net import Net
+from ..netting.references import is_gear, knots_named
 from .courses import Course, Record, Steady, Swing
 from .motion import Motion, Move, Turn
 

@@ -1,26 +1,47 @@
-"""Ropes, rings, collars, floats and sinkers of a case on its netting."""
+"""Ropes, rings, collars and lines, floats and sinkers of a case on its netting."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..case.tubes import CollarSpec, RingSpec
 from ..netting.joining import sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
+from ..netting.references import knot_at, real_step, row_of
 from ..netting.rigging import evenly, with_bodies, with_rope
 from ..netting.tubes import ring, with_tubes
+from .lines import with_lines
 
 Indices = NDArray[np.int64]
 
 
-def rigged(net: Net, case: Case) -> Net:
-    """Return the netting of a case with its seams, ropes, rings and collars, then floats and sinkers, by the file."""
+def rigged(netting: Net | None, case: Case) -> Net:
+    """Return the netting of a case, if any, with its ropes, rings and collars, lines, then floats and sinkers.
+
+    ValueError for a case without netting, rings and lines, which a checked case has.
+    """
+    net = with_lines(_roped(netting, case), case)
+    if net is None:
+        raise ValueError("the case has neither netting nor lines")
+    for bodies in case.bodies:
+        sphere = bodies.sphere(case.water.density, case.water.gravity)
+        kind = bodies.kind.removesuffix("s")
+        net = with_bodies(net, sphere.at(_places(net, bodies, case), name=bodies.name, kind=kind))
+    return net
+
+
+def _roped(net: Net | None, case: Case) -> Net | None:
+    """Return the netting of a case with its seams, then its ropes, rings and collars."""
+    if net is None:
+        return None
     twines, tubes = case.twines, case.tubes
     for seam in case.seams:
         net = sewn(net, *(cast("tuple[str, Side | Corner]", one.rpartition(".")[::2]) for one in seam.join))
@@ -35,10 +56,6 @@ def rigged(net: Net, case: Case) -> Net:
             net = with_tubes(
                 net, panel.edge(side), twine, tubes=part.tubes, name=part.name, kind=part.kind, free=free
             )
-    for bodies in case.bodies:
-        sphere = bodies.sphere(case.water.density, case.water.gravity)
-        kind = bodies.kind.removesuffix("s")
-        net = with_bodies(net, sphere.at(_places(net, bodies), name=bodies.name, kind=kind))
     return net
 
 
@@ -65,30 +82,29 @@ def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
     return next(panel for panel in net.panels if panel.name == name), cast("Side | Corner", side)
 
 
-def _labelled(net: Net, label: str) -> int:
-    """Return the knot of a label "NAME:i-j", which it may have lost to another knot in a seam.
-
-    Of grouped netting it is the one nearest to this knot of the real netting.
-    """
-    name, _, place = label.rpartition(":")
-    panel = next(panel for panel in net.panels if panel.name == name)
-    i, j = map(int, place.split("-"))
-    if panel.grouped_from:
-        away = panel.flat - panel.real_place(i, j)
-        return int(panel.knots[np.argmin(np.einsum("kq,kq->k", away, away))])
-    return int(panel.knots[(panel.lattice.knots == (i, j)).all(axis=1)][0])
-
-
-def _places(net: Net, bodies: BodiesSpec) -> Indices:
+def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:
     """Return the knots at which floats or sinkers are."""
     if bodies.along is None:
-        return np.array([_labelled(net, label) for label in bodies.at or ()], dtype=np.int64)
-    panel, side = _edge(net, bodies.along)
-    knots = panel.edge(side)
-    if np.all(knots == knots[0]):
-        return knots[:1]  # the tip of a cone
-    axis = 0 if side in ("top", "bottom") else 1
-    closed = panel.closed and axis == 0
+        return np.array(list(_labelled(net, bodies, case)), dtype=np.int64)
+    row = row_of(net, bodies.along)
+    if row is None:
+        raise ValueError(f"{bodies.called} hang on {bodies.along}, which is not there")
+    if np.all(row == row[0]):
+        return row[:1]  # the tip of a cone
+    closed = bool(row[0] == row[-1])
     # As many as hang on the real edge, each at the nearest knot that there is.
-    real = round((len(knots) - 1) * panel.group[axis]) + (not closed)
-    return evenly(knots, bodies.count or real, closed=closed, real=real)
+    real = round((len(row) - 1) * real_step(net, bodies.along)) + (not closed)
+    length = float(np.linalg.norm(np.diff(net.positions[row], axis=0), axis=1).sum())
+    return evenly(row, min(bodies.many(real, length, closed=closed), real), closed=closed, real=real)
+
+
+def _labelled(net: Net, bodies: BodiesSpec, case: Case) -> Iterator[int]:
+    """Yield the knots of their labels, one in every line where moorings are named."""
+    moorings = {part.name: part.names(part.name) for part in case.lines if isinstance(part, MooringsSpec)}
+    for label in bodies.at or ():
+        name, _, place = label.rpartition(":")
+        for one in [f"{line}:{place}" for line in moorings.get(name, ())] or [label]:
+            knot = knot_at(net, one)
+            if knot is None:
+                raise ValueError(f"{bodies.called} hang at {one}, which is not there")
+            yield knot

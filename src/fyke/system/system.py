@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..netting.faces import Faces
 from ..netting.net import Net
+from ..water.bed import Bed
 from ..water.current import Current
 from ..water.waves import Waves
-from .bed import Bed
 from .elements import DragLaws, Elements
 from .laws import Coefficients, Water
 from .motion import Motion
@@ -67,6 +67,11 @@ class System:
     motion: Motion | None = None
     sources: tuple[str, ...] = ()
     case_text: str = ""
+
+    def resting(self) -> System:
+        """Return the system as statics takes it: no waves, no motion, friction from where the net was laid."""
+        bed = self.bed and replace(self.bed, laid=self.net.positions[:, :2])
+        return replace(self, waves=None, motion=None, bed=bed)
 
     def at_rest(self) -> State:
         """Return the state that the net was built in, at time 0, at rest but for held knots that move."""

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ...netting.measures import measure_panel
 from ...netting.net import Panel
 from ...results.audit import forces_on_knots
+from ...results.lines import line_words
 from ...results.parts import part_words
 from ...results.water import water_words
 from ...solve.result import Result
@@ -67,7 +68,7 @@ def key_numbers(figures: dict[str, Any]) -> list[Row]:
         ("Knots and bars", f"{figures['knots']}, {figures['bars']}", figures["knots"]),
         *(
             (name[:1].upper() + name[1:], text, None)
-            for name, text in (*part_words(figures), *water_words(figures))
+            for name, text in (*part_words(figures), *line_words(figures), *water_words(figures))
         ),
     ]
 
@@ -180,7 +181,7 @@ PART_COLUMNS = (
     "Weight in water (N)",
     "Force on supports (N)",
     "Largest tension (N)",
-    "Of breaking strength",
+    "Of strength",
     "Slack bars",
 )
 

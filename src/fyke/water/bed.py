@@ -7,8 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..netting.net import Net
-
 Array = NDArray[np.float64]
 
 # Stiffness and damping of the ground that MoorDyn takes for mooring lines, Pa/m and Pa s/m (read in its code and in
@@ -55,21 +53,3 @@ class Bed:
             f"sea bed: {self.stiffness:g} Pa/m, {self.damping:g} Pa s/m, {source}; friction {self.friction:g} "
             "(OrcaFlex's help, read: 0.4 to 0.8 of chain)"
         )
-
-
-def footprint(net: Net) -> tuple[Array, Array, Array]:
-    """Return how each knot of a net stands on ground: area (m2), diameter (m) and radius of its body (m), (n,) each.
-
-    Half of every bar is at each of its ends. Bodies touch the ground by their radius; bars by their middle, so that an
-    anchor is at the depth itself.
-    """
-    n, ends = net.knot_count, net.bars
-    area, diameter, radius = np.zeros(n), net.knot_diameter.copy(), np.zeros(n)
-    np.add.at(area, ends, (0.5 * net.bar_diameter * net.rest_length)[:, None])
-    area += np.pi / 4.0 * net.knot_diameter**2
-    np.maximum.at(diameter, ends, net.bar_diameter[:, None])
-    for one in net.bodies:
-        np.add.at(area, one.knots, np.pi / 4.0 * one.diameter**2)
-        np.maximum.at(diameter, one.knots, one.diameter)
-        np.maximum.at(radius, one.knots, 0.5 * one.diameter)
-    return area, diameter, radius
