@@ -12,7 +12,7 @@ from fyke.forces.evaluate import evaluate
 from fyke.report.style import BLUE, DOUBLE_COLUMN, styled
 from fyke.study import Found
 from fyke.water.laws import LAWS
-from panels import NYLON, SIDE, framed, settled
+from panels import BAR, NYLON, SIDE, framed, settled
 
 # Part of an input by which it is put up and down.
 STEP = 0.02
@@ -61,10 +61,14 @@ def outputs(inputs=Inputs(), bars=None, segments=1):
     )
 
 
-def elasticity(name):
+# Side of a frame, over the example's, in which the panel is just taut as built.
+TAUT = Inputs(frame=8.0 * BAR * np.sqrt(2.0) / SIDE)
+
+
+def elasticity(name, base=Inputs()):
     """Change of every output in per cent for one of the input, from central differences."""
-    value = getattr(Inputs(), name)
-    up, down = (outputs(replace(Inputs(), **{name: value * (1.0 + way)})) for way in (STEP, -STEP))
+    value = getattr(base, name)
+    up, down = (outputs(replace(base, **{name: value * (1.0 + way)})) for way in (STEP, -STEP))
     return np.log(up / down) / np.log((1.0 + STEP) / (1.0 - STEP))
 
 
@@ -103,6 +107,9 @@ def measure(tables):
     for name in Inputs.__dataclass_fields__:
         for output, value in zip(OUTPUTS, elasticity(name), strict=True):
             yield Found(f"elasticity, {output}", value, case=name.replace("_", " "))
+    for name in ("modulus", "current"):
+        for output, value in zip(OUTPUTS, elasticity(name, TAUT), strict=True):
+            yield Found(f"taut, {output}", value, case=name)
     yield from spread("modulus", {f"{e / 1e6:g} MPa": outputs(Inputs(modulus=e)) for e in MODULI})
     laws = {n: law() for n, law in LAWS["bars"].items() if not n.endswith("table") and n != "constant"}
     yield from spread("drag law", {name: outputs(bars=law) for name, law in laws.items()})

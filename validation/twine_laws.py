@@ -54,5 +54,8 @@ def measure(tables):
     for (below, low), (above, high) in pairwise(points):
         middle = tension(table, 0.5 * (below + above))[0]
         yield Found("table", middle, 0.5 * (low + high), f"strain {0.5 * (below + above):.4f}")
+    for strain, load in points[1:]:
+        line = load / (points[1, 1] / points[1, 0] * strain)
+        yield Found("line", 100.0 * (1.0 / line - 1.0), case=f"strain {strain:.3f}")
     for row in tables["fibres"]:
         yield Found("density", MATERIALS[row["fibre"]].density, row["density"], row["fibre"])
