@@ -246,12 +246,12 @@ def test_cells_of_a_row():
 
 
 def test_rows_that_hold_are_told_by_the_worst_and_others_one_by_one():
-    held = [row(case=f"case {i}", ours=2.5 - 0.01 * i, verdict="holds") for i in range(6)]
+    held = [row(case=f"case {i}", ours=2.5 - 0.01 * i, verdict="holds") for i in range(7)]
     failed = [row(case="lost"), row(case="lost too")]
     text = markdown(Report(tuple(held + failed), {}, {}), version="1", command="fyke validate")
-    assert "worst of 6: case 5" in text and "case 4" not in text
-    assert "| lost |" in text and "| lost too |" in text and "6 hold, 2 fail" in text
-    assert [len(some) for some in alike(held + failed)] == [6, 1, 1]
+    assert "worst of 7: case 6" in text and "case 4" not in text
+    assert "| lost |" in text and "| lost too |" in text and "7 hold, 2 fail" in text
+    assert [len(some) for some in alike(held + failed)] == [7, 1, 1]
     assert math.isclose(levels_of(Report((held[5],), {}, {}))[0]["claims"][0]["rows"][0]["miss"], 0.5)
 
 

@@ -9,7 +9,7 @@ from scipy.optimize import fsolve
 
 import fyke
 from fyke.study import Found
-from fyke.system.bed import Bed
+from fyke.water.bed import Bed
 from lines import NO_FORCES, thread
 
 WATER = fyke.Water(density=1025.0, gravity=9.81)
