@@ -12,6 +12,7 @@ from fyke.forces.bed import OnBed, footprint
 from fyke.netting.rigging import Sphere, with_bodies
 from fyke.results.audit import audit
 from fyke.water.bed import CREEP, SOFT, Bed
+from fyke.water.waves import airy
 from mooring import CHAIN, WATER, mooring, weight_of
 from reference import NO_FORCES, thread
 
@@ -138,3 +139,20 @@ def test_explicit_steps_refuse_a_bed(stepper):
 def test_what_is_no_bed_is_refused():
     with pytest.raises(ValueError, match="stiffness must be above 0"):
         Bed(10.0, stiffness=0.0)
+
+
+def test_a_mooring_line_in_waves_keeps_finite_forces():
+    """It sways between its anchor and a buoy; energy is accounted for and nothing sinks through the ground."""
+    pieces = [fyke.LinePiece(CHAIN, 30.0, 30)]
+    net = fyke.with_line(
+        None, (0.0, 0.0, -12.0), (23.0, 0.0, -0.3), pieces, name="m", held=(True, False), bed=-12.0
+    )
+    net = with_bodies(net, Sphere(mass=300.0, diameter=1.5).at([30], name="buoy", kind="float"))
+    sea = airy(1.0, 6.0, depth=12.0)
+    system = fyke.make_system(net, current=(0.3, 0.0, 0.0), water=WATER, waves=sea, bed=Bed(12.0))
+    result = fyke.simulate(system, duration=12.0, every=0.1)
+    assert result.outcome.ok
+    assert result.tension.max() < 1e4 and np.ptp(result.tension[60:, -1]) > 1.0
+    assert result.position[:, :, 2].min() > -12.1  # 4 cm where it falls, in steps of the default accuracy
+    energy = audit(system, result).energy
+    assert abs(energy.remainder) < 0.1 * abs(energy.current_work)

@@ -6,10 +6,14 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
+import fyke
 from fyke.cli.app import app
+from fyke.netting.line import line
+from fyke.results.periods import told_modes
 
 PANEL = Path(__file__).parents[1] / "examples" / "panel.toml"
 
@@ -65,3 +69,27 @@ def test_wrong_input_and_no_equilibrium_have_their_exit_codes(tmp_path):
     (tmp_path / "loose.toml").write_text(text.replace('fixed = "edges"', 'fixed = "none"'))
     loose = modes(tmp_path / "loose.toml")
     assert loose.exit_code == 1 and "singular" in loose.stderr and "held by nothing" in loose.stderr
+
+
+def test_shares_of_all_modes_add_up_to_the_whole():
+    """Effective modal masses of a complete set are the mass itself, along every axis."""
+    twine = fyke.Twine("s", 1140.0, 1e-3, fyke.LinearLaw(1e9))
+    points = [(0.0, 0.0, 0.0), (0.0, 0.0, -0.5), (0.1, 0.0, -1.0)]
+    balls = {"knot_diameter": [0.0, 0.02, 0.2], "knot_density": [1000.0, 3000.0, 8000.0]}
+    system = fyke.make_system(line(twine, points, 0.5, fixed=(0,), **balls), current=(0.0, 0.0, 0.0))
+    at = fyke.solve_static(system).position[-1]
+    told = told_modes(system, at, fyke.modes(system, at, count=6))
+    assert np.sum([one["share"] for one in told], axis=0) == pytest.approx(np.ones(3), rel=1e-9)
+    # The two slowest are the pendulum, one each way in any mixture.
+    assert np.sum([one["share"] for one in told[:2]], axis=0)[:2] == pytest.approx(np.ones(2), abs=1e-2)
+
+
+def test_a_run_tells_the_periods_that_modes_finds(tmp_path):
+    text = PANEL.read_text() + "\n[output]\nperiods = 3\n"
+    file = tmp_path / "panel.toml"
+    file.write_text(text)
+    done = CliRunner().invoke(app, ["run", str(file), "-o", str(tmp_path / "out"), "--no-figures", "--json"])
+    assert done.exit_code == 0, done.output
+    told = json.loads(done.output)["natural_periods"]
+    found = json.loads(modes(PANEL, "-n", "3", "--json").output)["modes"]
+    assert [one["period"] for one in told] == pytest.approx([one["period"] for one in found], rel=1e-6)

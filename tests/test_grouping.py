@@ -4,7 +4,9 @@ The sags of 96 x 96 meshes, whole and grouped, were computed with another progra
 interior-point method, documented to six digits.
 """
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ import pytest
 import fyke
 from fyke.case import parse_case
 from fyke.case.errors import CaseError
+from fyke.forces.bed import footprint
 from fyke.forces.evaluate import evaluate
 from fyke.netting.joining import sewn
 from fyke.netting.measures import measure_net
@@ -19,15 +22,18 @@ from fyke.netting.rigging import evenly
 from fyke.netting.shapes import box, cage
 from fyke.netting.sheet import Netting
 from fyke.netting.together import together
+from fyke.results.audit import audit
 from fyke.results.derive import summary
 from fyke.results.parts import by_part
 from fyke.results.volume import volume_history
+from fyke.solve import nested
 from fyke.system.system import State
 from fyke.water.laws.bars import Hoerner, Takagi
 from fyke.water.laws.knots import SchillerNaumann
 from fyke.water.laws.panels import KristiansenFaltinsen, Loland
 from fyke.water.wakes import LolandWake
 
+EXAMPLES = Path(__file__).parent.parent / "examples"
 BAR, TWINE_DIAMETER, KNOT = 0.03, 1.5e-3, 3.5e-3
 DENSITY, KNOT_DENSITY = 1140.0, 1300.0
 LAWS = {
@@ -236,6 +242,17 @@ def test_a_real_bar_of_a_grouped_panel_bears_what_it_bears_in_the_real_net():
     assert told[2][1:] == pytest.approx(told[0][1:], rel=0.003)
 
 
+@pytest.mark.parametrize(("mesh", "meshes"), [("diamond", (64, 48)), ("square", (90, 66))])
+def test_a_grouped_panel_may_begin_on_larger_meshes_still(monkeypatch, mesh, meshes):
+    net = panel(mesh, meshes, 2, hung=0.97)
+    system = fyke.make_system(net, current=(0.5, 0.0, 0.1))
+    plain = fyke.solve_static(system, tolerance=1e-10)
+    monkeypatch.setattr(nested, "LARGE", 400)
+    begun = fyke.solve_static(system, tolerance=1e-10)
+    assert plain.outcome.ok and begun.outcome.ok and "begun from" in begun.outcome.message
+    assert np.abs(begun.tension[-1] - plain.tension[-1]).max() < 1e-7
+
+
 def test_volume_and_drag_of_a_cage_converge_as_the_group_falls():
     """48 x 24 meshes round an axis, with weights: the difference to the real net falls with the group."""
     told = []
@@ -286,6 +303,50 @@ along = "cage.bottom"
 weight = "0.05 N"
 density = 7850.0
 """
+
+
+GROUPED_EXAMPLES = {
+    "aarsnes_cage": 2,
+    "codend": 4,
+    "cone": 4,
+    "cylinder": 3,
+    "frustum": 4,
+    "gillnet": 16,
+    "leaning_panel": 4,
+    "model_cage": 5,
+    "panel_reynolds": 4,
+    "panel_sheared": 3,
+    "square_and_diamond": 4,
+    "two_screens": 4,
+    "wall_waves": 3,
+}
+
+
+@pytest.mark.parametrize("example", GROUPED_EXAMPLES)
+def test_totals_of_an_example_are_the_same_whatever_the_group(example):
+    """Seams, boxes, tips, ropes, floats, sinkers, screens and laws: weight, mass and drag areas of the real net."""
+    file = EXAMPLES / f"{example}.toml"
+    text = re.sub(r"(?m)^group = .*$", "", file.read_text())
+    text = re.sub(r"\[grouping\]\nknots = .*", "", text)
+    told = []
+    for group in (GROUPED_EXAMPLES[example], 1 if example != "gillnet" else 8):
+        case = parse_case(re.sub(r"(?m)^(mesh = .*)$", rf"\1\ngroup = {group}", text), path=file)
+        net = fyke.build_net(case)
+        el = fyke.build_system(net, case).elements
+        told.append(
+            [
+                measure_net(net).real_knots,
+                measure_net(net).mass,
+                el.weight[:, 2].sum(),
+                el.knot_mass.sum(),
+                el.bar_added_mass.sum(),
+                (el.normal_drag * el.rest_length).sum(),
+                el.knot_drag.sum(),
+                net.knot_count,
+            ]
+        )
+    assert told[0][:-1] == pytest.approx(told[1][:-1], rel=1e-9)
+    assert told[0][-1] < told[1][-1]
 
 
 def case_of(*, old=(), netting="", grouping=""):
@@ -371,6 +432,44 @@ def test_what_is_wrong_with_a_group_is_told_in_four_parts(changes, parts):
         case_of(**changes)
     told = [" | ".join((p.where, p.found, p.allowed, p.cure)) for p in caught.value.problems]
     assert any(all(part in one for part in parts) for one in told), told
+
+
+def test_accounts_and_breaking_strength_of_a_grouped_net():
+    """Forces on the knots from the tensions of real bars balance; use of strength is that of one real bar."""
+    strong = [
+        ("group = 1", "group = 4"),
+        ('diameter = "1.5 mm"', 'diameter = "1.5 mm"\nbreaking_strength = "100 N"'),
+    ]
+    case = case_of(old=strong)
+    system = fyke.build_system(fyke.build_net(case), case)
+    result = fyke.solve_static(system)
+    assert result.outcome.ok
+    assert audit(system, result).unbalanced_force < 1e-6
+    wall = by_part(system, result)[0]
+    assert wall.utilisation == pytest.approx(result.tension[-1].max() / 100.0, rel=1e-12)
+    stress = result.tension[-1].max() / (1e9 * np.pi / 4.0 * TWINE_DIAMETER**2)
+    assert summary(result)["max_strain"] == pytest.approx(stress, rel=1e-6)
+
+
+def test_energy_of_a_grouped_net_in_motion_is_accounted_for():
+    """A taut panel bags in a current: the work of the current is in drag and in the stretch of all real bars."""
+    net = panel("square", (16, 16), 4, hung=1.001)
+    system = fyke.make_system(net, current=(1.5, 0.0, 0.0))
+    result = fyke.simulate(system, duration=0.05, every=5e-4, stepper=fyke.Implicit(max_step=2.5e-4))
+    energy = audit(system, result).energy
+    assert energy.elastic > 0.05
+    assert abs(energy.remainder) < 0.01 * energy.elastic
+
+
+@pytest.mark.parametrize("mesh", ["diamond", "square"])
+def test_what_lies_on_the_bed_has_the_area_of_the_real_netting_by_hand(mesh):
+    knots, bars = counts(mesh, (16, 8))
+    for group in (1, 2, 4):
+        area, diameter, _ = footprint(panel(mesh, (16, 8), group))
+        assert area.sum() == pytest.approx(
+            TWINE_DIAMETER * BAR * bars + np.pi / 4.0 * KNOT**2 * knots, rel=1e-12
+        )
+        assert diameter == pytest.approx(np.full(len(diameter), KNOT))
 
 
 def test_a_result_of_a_grouped_net_comes_back_from_its_file(tmp_path):

@@ -25,7 +25,9 @@ def rows():
 
 @pytest.mark.parametrize(("cells", "claim"), list(rows()), ids=lambda value: str(value)[:40])
 def test_every_number_of_the_page_is_in_the_report(cells, claim):
-    told = [cell.strip() for line in SECTIONS[claim].splitlines() if line[:1] == "|" for cell in line.split("|")]
+    told = [
+        cell.strip() for line in SECTIONS[claim].splitlines() if line[:1] == "|" for cell in line.split("|")
+    ]
     numbers = [cell for cell in cells[1:] if cell]
     assert numbers
     for number in numbers:

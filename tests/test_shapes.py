@@ -650,6 +650,13 @@ def test_edges_that_lie_apart_are_told_and_moved_to_the_first():
     assert not any("seam" in one for one in parse_case(seam_case(24, None, gap=0.05)).warnings)
 
 
+def test_a_rope_along_a_gathered_edge_passes_every_knot_once():
+    rope = '[[gear]]\nkind = "rope"\nname = "r"\ntwine = "main"\nalong = "upper.bottom"\n'
+    net = fyke.build_net(parse_case(seam_case(16, "1.5") + rope))
+    assert len(net.ropes[0].bars) == 16
+    assert set(net.ropes[0].knots) == set(net.panels[1].edge("top"))
+
+
 def test_a_turned_rim_is_joined_where_it_lies():
     """A cylinder that was turned by three meshes loses nothing: its seam begins three knots further on."""
     upper = frustum(made_of("diamond"), (12, 2), diameters=(0.5, 0.5), height=0.2, name="u")
@@ -793,6 +800,15 @@ SPOILT |= {
     "more lead than rope": (
         line_case(twine='diameter = "4 mm"\nlead = "150 g/m"'),
         ("[twine.line] lead", "150 g/m of lead in a diameter of 4 mm", "above 4.104 mm", "units"),
+    ),
+    "seam of a side that became a ring": (
+        four_walls(("floor.top", "north.bottom"), ("east.top", "east.bottom"), ("north.right", "east.left")),
+        (
+            "[[gear]] 8 join",
+            '"north.right" and "east.left" of seam \'s2\'',
+            "knots can become one",
+            "joined already",
+        ),
     ),
     "held by no seam": (
         four_walls(*ALL_ROUND),

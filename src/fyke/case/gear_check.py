@@ -17,7 +17,7 @@ from .gear import LARGEST_STRAIN, FlatSpec, NettingSpec, Piece, Sheet
 from .keys import nearest
 from .places import Path
 from .rigging import BodiesSpec, RopeSpec
-from .rows import in_row_findings, rows_of
+from .rows import in_row_findings, length_of, rows_of
 from .seams_check import joined_names, seam_findings
 from .shapes import ConeSpec, CylinderSpec, RoundSpec
 from .tapered import TaperedSpec
@@ -317,9 +317,9 @@ def _rope(
 
 
 def _round_edge(along: str, sheets: Mapping[str, tuple[Sheet, NettingSpec]]) -> bool:
-    """Whether an edge, one that is there, goes round."""
+    """Whether an edge goes round; a row that is no edge does not."""
     name, _, side = along.rpartition(".")
-    return sheets[name][0].closed and side in ("top", "bottom")
+    return name in sheets and sheets[name][0].closed and side in ("top", "bottom")
 
 
 def _way(
@@ -353,8 +353,8 @@ def _hung(
         return
     if bodies.along is not None:
         last = rows_of(parts, sheets).get(bodies.along)
-        row = edge_named(path, called, bodies.along, parts, sheets) if last is None else ((last + 1, 0.0),)
-        for one in row:
+        in_row = [] if last is None else [(last + 1, length_of(parts, bodies.along))]
+        for one in in_row or edge_named(path, called, bodies.along, parts, sheets):
             if len(one) == 4:
                 yield one
             elif bodies.many(*one, closed=_round_edge(bodies.along, sheets)) > one[0]:

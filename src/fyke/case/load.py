@@ -17,6 +17,7 @@ from .load_case import LoadCaseSpec, choosing, chosen
 from .oddities import warnings
 from .places import Path, Places
 from .schema import Case
+from .sewing import sewing_findings
 from .written import written
 
 _WHERE_IN_TOML = re.compile(r"(.*) \(at (?:line (\d+), column (\d+)|end of document)\)", re.DOTALL)
@@ -70,6 +71,8 @@ def parse_case(text: str, where: str = "case", *, path: FilePath | None = None) 
         if key not in meant:
             problems.setdefault(key, Problem(places.at(key), *words))
     problems |= file_problems(parts)
+    if case is not None and not problems:
+        problems |= {key: Problem(places.at(key), *words) for key, *words in sewing_findings(case)}
     if problems or case is None:
         raise CaseError([problems[key] for key in sorted(problems, key=places.line)])
     return Case.model_validate(raw, context={**context, "warnings": warnings(case)})

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import cast
 
 import numpy as np
 
-from ..netting.joining import stitches
-from ..netting.lattice import Corner, Side, hanging_ratios
-from ..netting.together import together
+from ..netting.lattice import hanging_ratios
 from .gear import LARGEST_STRAIN
 from .grouping import rounded
 from .motion_check import motion_oddities
 from .schema import Case
+from .sewing import tried
 from .water_check import current_oddities
 from .waves import wave_oddities
 
@@ -33,6 +31,7 @@ def warnings(case: Case) -> tuple[str, ...]:
         *_waves(case),
         *_sheltered_twice(case),
         *_above_water(case),
+        *_groundless(case),
         *rounded([(piece, case.netting[piece.netting]) for piece in case.pieces]),
         *current_oddities(case),
         *motion_oddities(case),
@@ -106,43 +105,32 @@ def _unused(case: Case) -> Iterator[str]:
         yield f"Material '{name}' is not used by any twine" + (" or tube." if case.tube else ".")
 
 
+def _groundless(case: Case) -> Iterator[str]:
+    if case.lines and case.water.depth is not None and case.bed is None:
+        yield (
+            f"Nothing bears lines at the sea bed {case.water.depth:g} m down: they hang through it; add [bed]."
+        )
+
+
 def _no_effect(case: Case) -> Iterator[str]:
     if case.solve.kind == "dynamic" and "tolerance" in case.solve.model_fields_set:
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
     if case.drag.kind == "bars" and case.drag.screens is not None:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'
+    if case.solve.kind == "dynamic" and case.output.periods is not None:
+        yield "[output] periods plays no part in a dynamic case; natural periods are those about an equilibrium."
     if case.solve.kind == "static" and case.output.every is not None:
         yield "[output] every plays no part in a static case, which has one output."
 
 
 def _seams(case: Case) -> Iterator[str]:
     """Edges that lie apart before they are joined."""
-    owner = {
-        sheet.name: piece for piece in case.pieces for sheet in piece.sheets(case.netting[piece.netting])
-    }
-    for seam in case.seams:
-        one, other = (cast("tuple[str, Side | Corner]", edge.rpartition(".")[::2]) for edge in seam.join)
-        both = [owner[name] for name in dict.fromkeys((one[0], other[0]))]
-        pieces = [piece for k, piece in enumerate(both) if piece not in both[:k]]
-        groups = {piece.group for piece in pieces}
-        if len(groups) > 1:
+    for trial in tried(case):
+        if trial.apart > trial.mesh:
             yield (
-                f"Seam '{seam.name}' joins netting whose groups differ, {' and '.join(map(str, sorted(groups)))}: the "
-                "finer meshes are gathered at the knots of the coarser; give both the same group."
-            )
-        net = together(
-            [
-                piece.lay(case.netting[piece.netting], case.twines[case.netting[piece.netting].twine])
-                for piece in pieces
-            ]
-        )
-        stays, goes = stitches(net, one, other)
-        apart = float(np.linalg.norm(net.positions[stays] - net.positions[goes], axis=1).max())
-        mesh = 2.0 * max(panel.bar_length for panel in net.panels)
-        if apart > mesh:
-            yield (
-                f"The edges of seam '{seam.name}' lie up to {apart:.3g} m apart, more than a stretched mesh of "
-                f"{mesh:.3g} m: their knots are put together, and the bars there begin as long as that makes them."
+                f"The edges of seam '{trial.seam.name}' lie up to {trial.apart:.3g} m apart, more than a stretched "
+                f"mesh of {trial.mesh:.3g} m: their knots are put together, and bars there begin as long as that "
+                "makes them."
             )
 
 

@@ -41,6 +41,14 @@ def rows_of(parts: Parts, sheets: Sheets) -> dict[str, int]:
     return rows
 
 
+def length_of(parts: Parts, name: str) -> float:
+    """Unloaded length (m) of the line of a name, 0 where it is not known."""
+    for index, line in parts.lines.items():
+        if name in (parts.name_of(index), *lines_of(line, parts.name_of(index))):
+            return sum(piece.length for piece in line.asked)
+    return 0.0
+
+
 def lines_of(part: LaidSpec, name: str) -> list[str]:
     """Names of the lines of a part of a name."""
     return part.names(name) if isinstance(part, MooringsSpec) else [name]

@@ -16,7 +16,7 @@ from .bed import BedSpec
 from .box import BoxSpec
 from .current import Current
 from .drag import Drag, hung_solidity
-from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance
+from .fields import Force, Length, Name, Point, Table, Time, Title, Tolerance, whole
 from .gear import NettingSpec, PanelSpec, Piece, Sheet
 from .grouping import GroupingSpec, choose_groups
 from .lines import ChainSpec, LaidSpec, LineSpec, MooringsSpec
@@ -32,6 +32,8 @@ from .tubes import CollarSpec, RingSpec, TubeSpec, TubularSpec
 from .twine import MaterialSpec, TwineSpec
 from .units import ACCELERATION, DENSITY, ENERGY, VISCOSITY
 from .waves import WavesSpec
+
+MOST_PERIODS = 100
 
 
 def _static_by_default(value: Any) -> Any:
@@ -122,7 +124,7 @@ SolveSpec = Annotated[
 
 
 class Output(Table):
-    """What a dynamic run writes."""
+    """What a run writes."""
 
     every: Time | None = Field(
         default=None, description="s between outputs, a hundredth of the duration by default", examples=[0.02]
@@ -131,6 +133,11 @@ class Output(Table):
         default=((0.0, 0.0, 0.0),),
         description="m, points at which a run in waves writes the motion of the water",
         examples=[[[0.0, 0.0, -1.0]]],
+    )
+    periods: Annotated[int, *whole(1, MOST_PERIODS)] | None = Field(
+        default=None,
+        description="so many of the slowest natural periods of a static case; none by default",
+        examples=[6],
     )
 
 

@@ -266,6 +266,7 @@ kind = "static"                      # static | dynamic
 
 [output]
 # every = 0.02                       # s between outputs of a dynamic run, duration / 100 by default
+# periods = 6                        # the slowest natural periods of a static case
 # probes = [[0.0, 0.0, 0.0]]         # m, where a run in waves writes the motion of the water
 
 # [[load_case]]                      # the same gear in other water: one table, folder and row of loads.csv for each

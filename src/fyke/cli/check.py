@@ -22,6 +22,7 @@ from ..water.current import at_full_strength
 from ..water.laws.bars import ConstantBar
 from ..water.laws.law import REYNOLDS
 from ..water.wakes import GivenWake
+from .check_lines import bed_of, bed_words, line_rows, lines_of
 from .check_rigging import (
     bodies_of,
     body_rows,
@@ -78,8 +79,9 @@ def judge(case: Case) -> dict[str, Any]:
     largest by the speed across the flat panel's bars, reynolds_knots: by the knot diameter; damping_time: longest
     retardation time (s).
     seams: one table each, knots of both edges; ropes: the same, lengths in m, stiffness: EA in N; tubes: rings and
-    collars, see tubes_of; bodies: floats and sinkers, one table each kind, mass (kg), diameter (m), weight_in_water (N,
-    negative floats) and drag_area (m2) of each one, total_weight of all.
+    collars, see tubes_of; lines: see lines_of; bed: of the sea, None without one; bodies: floats and sinkers, one table
+    each kind, mass (kg), diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one,
+    total_weight of all.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -115,6 +117,8 @@ def judge(case: Case) -> dict[str, Any]:
         "seams": seams_of(case),
         "ropes": ropes_of(case, system),
         "tubes": tubes_of(case, system),
+        "lines": lines_of(system),
+        "bed": bed_of(case),
         "bodies": bodies_of(case, system),
         "warnings": [*case.warnings, *hanging(system, static=case.solve.kind == "static"), *outside.warnings],
         "out_of_range": outside.counts,
@@ -201,6 +205,7 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         ("solve", findings["solve"]),
         ("current", ", ".join(filter(None, [vector(findings["current"], "m/s"), findings["current_words"]]))),
         *([("waves", findings["waves"])] if findings["waves"] else []),
+        *([("sea bed", bed_words(findings["bed"]))] if findings["bed"] else []),
         *(
             (
                 "motion",
@@ -226,6 +231,8 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         print_rows(console, f"rope {rope['name']}: twine '{rope['twine']}'", rope_rows(rope))
     for tube in findings["tubes"]:
         print_rows(console, f"{tube['kind']} {tube['name']}: tube '{tube['tube']}'", tube_rows(tube))
+    for line in findings["lines"]:
+        print_rows(console, f"line {line['name']}: {', '.join(line['twines'])}", line_rows(line))
     for bodies in findings["bodies"]:
         print_rows(console, f"{bodies['kind']} {bodies['name']}", body_rows(bodies))
     print_warnings(console, findings["warnings"])

@@ -15,7 +15,7 @@ from ..results import CheckpointError, ResultError, frame_bytes, frames_of, load
 from ..solve.dynamic import Checkpoint
 
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
-PARTS, RINGS, WAVES = "parts.csv", "rings.csv", "waves.csv"
+PARTS, RINGS, LINES, WAVES = "parts.csv", "rings.csv", "lines.csv", "waves.csv"
 LOADS, LOADS_BY_PART, LOAD_CASES = "loads.csv", "loads_by_part.csv", "load_cases"  # the last a folder
 CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
@@ -85,6 +85,7 @@ def _clear(folder: Path) -> None:
         BARS,
         PARTS,
         RINGS,
+        LINES,
         WAVES,
         LOADS,
         LOADS_BY_PART,

@@ -119,13 +119,14 @@ def print_loads(console: Console, rows: Sequence[LoadRow]) -> None:
     unit, size = ("kN", 1e3) if max(forces) >= LARGE else ("N", 1.0)
     seas = any(row.wave_height is not None for row in rows)
     moored = any(row.mooring_tension is not None for row in rows)
+    afloat = any(row.collar_force is not None for row in rows)
     heads: list[tuple[str, str, int]] = [
         ("load case", "", NAME_WIDTH),
         ("current", "m/s", 7),
         ("to", "deg", 4),
     ]
     heads += [("wave", "m", 5), ("period", "s", 6)] if seas else []
-    heads += [("support", unit, 7)] + ([("mooring", unit, 7)] if moored else [])
+    heads += [("collar" if afloat else "support", unit, 7)] + ([("mooring", unit, 7)] if moored else [])
     heads += [("tension", unit, 7), ("used", "%", 5), ("volume", "%", 6), ("moved", "m", 5)]
     console.print(Text("Load cases", style="bold"))
     for which in (0, 1):
@@ -135,7 +136,7 @@ def print_loads(console: Console, rows: Sequence[LoadRow]) -> None:
     for i, row in enumerate(rows):
         cells = [row.name[:NAME_WIDTH], _number(row.current, 3), _number(row.towards, 3)]
         cells += [_number(row.wave_height, 3), _number(row.wave_period, 3)] if seas else []
-        cells += [_number(row.support_force / size)]
+        cells += [_number(_over(row.collar_force if afloat else row.support_force, size))]
         cells += [_number(_over(row.mooring_tension, size))] if moored else []
         cells += [_number(row.tension / size), _number(_over(row.utilisation, 0.01), 3)]
         cells += [_number(_over(row.volume_left, 0.01), 3), _number(row.displacement, 3)]

@@ -10,6 +10,7 @@ import numpy as np
 from rich.text import Text
 
 from ..case import Case, CaseError, Problem, load_case
+from ..results.periods import told_modes
 from ..solve.modes import Modes, modes
 from ..solve.result import Result
 from ..solve.static import solve_static
@@ -83,28 +84,17 @@ def _modes(file: Path, system: System, rest: Result, count: int) -> Modes:
 def _findings(case: Case, system: System, rest: Result, found: Modes | None) -> dict[str, Any]:
     """Return what was found, ready for JSON.
 
-    modes: slowest first; frequency in Hz, circular_frequency in rad/s, period in s, None where nothing pulls the net
-    back; largest_motion: label of the knot that moves most, direction: its unit vector. loose: labels of the knots
-    without a period.
+    modes: as results.periods tells them; loose: labels of the knots without a period; falling: how many of the modes
+    are no oscillations, because a tube buckles.
     """
     labels, net = system.net.labels, system.net
-    listed = []
-    for omega, shape in zip(found.frequency, found.shape, strict=True) if found is not None else ():
-        knot = int(np.argmax(np.linalg.norm(shape, axis=1)))
-        listed.append(
-            {
-                "period": 2.0 * np.pi / float(omega) if omega > 0.0 else None,
-                "frequency": float(omega) / (2.0 * np.pi),
-                "circular_frequency": float(omega),
-                "largest_motion": labels[knot],
-                "direction": (shape[knot] / np.linalg.norm(shape[knot])).tolist(),
-            }
-        )
+    listed = [] if found is None else told_modes(system, rest.position[-1], found)
     return {
         "title": case.title,
         "knots": net.knot_count,
         "bars": net.bar_count,
         "modes": listed,
+        "falling": 0 if found is None else found.falling,
         "loose": [] if found is None else [labels[knot] for knot in found.loose],
         "outcome": rest.outcome.name,
         "message": rest.outcome.message,
@@ -125,6 +115,10 @@ def _show(title: str, findings: dict[str, Any]) -> None:
     if loose:
         named = ", ".join(loose[:MOST_NAMED]) + (" .." if len(loose) > MOST_NAMED else "")
         rows.append(("loose knots", f"{len(loose)}, on slack bars only and left out: {named}"))
+    if findings["falling"]:
+        rows.append(
+            ("falling", f"the first {findings['falling']}: the equilibrium is not stable in still water")
+        )
     print_rows(console, title, rows)
     console.print(Text("Natural modes, slowest first; undamped, with added mass", style="bold"))
     console.print(Text("  mode     period  frequency  moves most", style="dim"))

@@ -22,6 +22,7 @@ from ..results import (
     summary,
     water_figures,
 )
+from ..results.periods import period_figures
 from ..solve.result import Result
 from ..system.build import build_net, build_system
 from ..system.hanging import hanging
@@ -113,6 +114,8 @@ def _figures(result: Result, case: Case | None, system: System | None) -> dict[s
         figures |= water_figures(system, result) | part_figures(system, result, depth=depth)
         figures |= line_figures(system, result)
         figures |= rings_told(system, result)
+        if case is not None and case.output.periods is not None and case.solve.kind == "static":
+            figures |= period_figures(system, result, case.output.periods)
         warnings += hanging(system, static=case is not None and case.solve.kind == "static")
         warnings += out_of_range(system, moments(result)).warnings
     figures["warnings"] = list(dict.fromkeys(warnings))

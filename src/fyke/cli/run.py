@@ -43,6 +43,7 @@ from ..results import (
 )
 from ..results.lines import line_words
 from ..results.parts import part_words
+from ..results.periods import period_figures, period_words
 from ..results.rings import ring_words
 from ..results.water import water_words
 from ..solve.clock import Clock, timed
@@ -57,6 +58,7 @@ from .folder import (
     BARS,
     CHECKPOINT,
     KNOTS,
+    LINES,
     PARTS,
     RESULT,
     RINGS,
@@ -268,8 +270,9 @@ def _figures_of(case: Case, system: System, result: Result, comparison: Comparis
         audit=audit(system, result),
     )
     figures |= water_figures(system, result) | part_figures(system, result, depth=case.water.depth)
-    figures |= line_figures(system, result)
-    figures |= rings_told(system, result)
+    figures |= line_figures(system, result) | rings_told(system, result)
+    if case.output.periods is not None and case.solve.kind == "static":
+        figures |= period_figures(system, result, case.output.periods)
     figures["damping_time"] = float(system.elements.damping_time.max(initial=0.0))
     outside = out_of_range(system, moments(result))
     held = hanging(system, static=case.solve.kind == "static")
@@ -304,7 +307,9 @@ def _show(case: Case, figures: dict[str, Any], pictures: list[Path], folder: Pat
     console = stdout()
     print_rows(console, case.title or folder.name, _rows(figures))
     print_warnings(console, figures["warnings"])
-    tables = ", ".join([KNOTS, BARS, PARTS, *(one for one in (RINGS, WAVES) if (folder / one).is_file())])
+    tables = ", ".join(
+        [KNOTS, BARS, PARTS, *(one for one in (RINGS, LINES, WAVES) if (folder / one).is_file())]
+    )
     files = [("result", f"{RESULT}, {SUMMARY}"), ("tables", tables)]
     if pictures:
         names = dict.fromkeys(picture.stem for picture in pictures)
@@ -336,10 +341,11 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
         ("weight in water", quantity(figures["weight_in_water"], "N")),
         ("force on supports", vector(figures["support_reaction"], "N")),
         ("largest displacement", quantity(figures["max_displacement"], "m")),
-        *water_words(figures),
-        *part_words(figures),
-        *line_words(figures),
-        *ring_words(figures),
+        *(
+            row
+            for told in (water_words, part_words, period_words, line_words, ring_words)
+            for row in told(figures)
+        ),
         *_account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),

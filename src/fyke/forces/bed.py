@@ -68,16 +68,20 @@ def bed_forces(x, v, knots, sizes, ground, laid, out):
 
 @njit(**OPTIONS)
 def add_blocks(c0, c1, by_x, by_v, symmetric, start, stride, data):
-    """Add c0 (-dF/dx) + c1 (-dF/dv) of some knots to the data of a sparse matrix; start (k, 1, 1), stride (k, 1)."""
+    """Add c0 (-dF/dx) + c1 (-dF/dv) of some knots to the data of a sparse matrix; start (k, 1, 1), stride (k, 1).
+
+    symmetric: without the change of friction with the weight on the ground, which goes one way only: half of it both
+    ways would make ground that is stiff and slippery an unstable one.
+    """
     for i in range(by_x.shape[0]):
         place = start[i, 0, 0]
         if place < 0:
             continue
         for q in range(3):
             for p in range(3):
+                if symmetric and (p == 2) != (q == 2):
+                    continue
                 value = c0 * by_x[i, p, q] + c1 * by_v[i, p, q]
-                if symmetric:
-                    value = 0.5 * (value + c0 * by_x[i, q, p] + c1 * by_v[i, q, p])
                 data[place + q * stride[i, 0] + p] -= value
 
 
@@ -130,8 +134,8 @@ def footprint(net: Net) -> tuple[Array, Array, Array]:
     """
     n, ends = net.knot_count, net.bars
     area, diameter, radius = np.zeros(n), net.knot_diameter.copy(), np.zeros(n)
-    np.add.at(area, ends, (0.5 * net.bar_diameter * net.rest_length)[:, None])
-    area += np.pi / 4.0 * net.knot_diameter**2
+    np.add.at(area, ends, (0.5 * net.bar_diameter * net.bar_multiple * net.rest_length)[:, None])
+    area += np.pi / 4.0 * net.knot_multiple * net.knot_diameter**2
     np.maximum.at(diameter, ends, net.bar_diameter[:, None])
     for one in net.bodies:
         np.add.at(area, one.knots, np.pi / 4.0 * one.diameter**2)

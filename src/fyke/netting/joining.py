@@ -161,7 +161,7 @@ def stitches(
     rounds = [panels[name].closed and side in ("top", "bottom") for name, side in (one, other)]
     if rounds[0] != rounds[1]:
         raise ValueError(f"{one[0]}.{one[1]} and {other[0]}.{other[1]}: one closes round, the other does not")
-    first, second = (_once(panels[name].edge(cast(Side, side))) for name, side in (one, other))
+    first, second = (once(panels[name].edge(cast(Side, side))) for name, side in (one, other))
     x = net.positions
     tries = []
     for way in (second, second[::-1]):
@@ -175,8 +175,8 @@ def stitches(
     return tries[1][1] if tries[1][0] < (1.0 - 1e-9) * tries[0][0] else tries[0][1]
 
 
-def _once(knots: Indices) -> Indices:
-    """Knots along an edge, those that have become one only once; the last of a closed edge stays its first."""
+def once(knots: Indices) -> Indices:
+    """Return the knots along an edge, neighbours that have become one once; a closed edge still ends as it begins."""
     return np.asarray(knots[np.concatenate([[True], np.diff(knots) != 0])])
 
 

@@ -20,6 +20,7 @@ from .tables import write_table
 Array = NDArray[np.float64]
 
 TABLE = "lines.csv"
+ENDS = ("from", "to")
 
 
 @dataclass(frozen=True)
@@ -27,11 +28,11 @@ class LineFigures:
     """What one line bears, in the last frame unless said otherwise.
 
     length: m, unloaded; tension_from, tension_to: N, of the bars at its beginning and at its end; horizontal_from,
-    vertical_from: N, parts of tension_from, which pulls up at its beginning where vertical_from is positive, and so
-    horizontal_to, vertical_to at its end; uplift: deg, of the line above level at its beginning; max_tension: N;
-    peak_tension: N, largest of all frames; utilisation: largest of all frames and bars over the breaking strength of
-    the twine, None where none is known; on_bed: m, unloaded, of its bars that lie on the sea bed from end to end, None
-    without a bed.
+    vertical_from: N, parts of tension_from, which pulls up at its beginning where vertical_from is positive;
+    uplift_from: deg, of the line above level there; held_from: whether that is an anchor; horizontal_to, vertical_to,
+    uplift_to, held_to: the same at its end; max_tension: N; peak_tension: N, largest of all frames; utilisation:
+    largest of all frames and bars over the breaking strength of the twine, None where none is known; on_bed: m,
+    unloaded, of its bars that lie on the sea bed from end to end, None without a bed.
     """
 
     name: str
@@ -39,10 +40,13 @@ class LineFigures:
     tension_from: float
     horizontal_from: float
     vertical_from: float
-    uplift: float
+    uplift_from: float
+    held_from: bool
     tension_to: float
     horizontal_to: float
     vertical_to: float
+    uplift_to: float
+    held_to: bool
     max_tension: float
     peak_tension: float
     utilisation: float | None
@@ -93,10 +97,13 @@ def _line(system: System, result: Result, line: Rope, bearing: NDArray[np.bool_]
         tension_from=begin,
         horizontal_from=begin * level,
         vertical_from=begin * up,
-        uplift=float(np.degrees(np.arctan2(up, level))),
+        uplift_from=float(np.degrees(np.arctan2(up, level))),
+        held_from=bool(net.fixed[line.knots[0]]),
         tension_to=end,
         horizontal_to=end * level_to,
         vertical_to=end * up_to,
+        uplift_to=float(np.degrees(np.arctan2(up_to, level_to))),
+        held_to=bool(net.fixed[line.knots[-1]]),
         max_tension=float(tension.max()),
         peak_tension=float(peak.max()),
         utilisation=float(np.max(peak / strength)) if np.isfinite(strength).any() else None,
@@ -115,8 +122,9 @@ def line_figures(system: System, result: Result) -> dict[str, Any]:
 
 
 COLUMNS = (
-    *("name", "length", "tension_from", "horizontal_from", "vertical_from", "uplift"),
-    *("tension_to", "horizontal_to", "vertical_to", "max_tension", "peak_tension", "utilisation", "on_bed"),
+    *("name", "length", "tension_from", "horizontal_from", "vertical_from", "uplift_from", "held_from"),
+    *("tension_to", "horizontal_to", "vertical_to", "uplift_to", "held_to"),
+    *("max_tension", "peak_tension", "utilisation", "on_bed"),
 )
 
 
@@ -129,6 +137,8 @@ def write_lines(lines: list[dict[str, Any]], folder: str | Path) -> Path:
 
 
 def _cell(value: Any) -> Any:
+    if isinstance(value, bool):
+        return int(value)
     return "" if value is None else repr(value) if isinstance(value, float) else value
 
 
@@ -141,8 +151,12 @@ def line_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
         rows.append(
             ("largest tension of a line", f"{most['peak_tension']:.4g} N, {most['name']}".rstrip(" ,"))
         )
-        steep = max(lines, key=lambda line: float(line["uplift"]))
-        rows.append(("steepest at its beginning", f"{steep['uplift']:.3g}°, {steep['name']}".rstrip(" ,")))
+    anchored = [
+        (line[f"uplift_{end}"], line["name"]) for line in lines for end in ENDS if line[f"held_{end}"]
+    ]
+    if anchored:
+        angle, name = max(anchored)
+        rows.append(("steepest at an anchor", f"{angle:.3g}°, {name}".rstrip(" ,")))
     if any(line["on_bed"] for line in lines):
         least, most = (pick(line["on_bed"] for line in lines) for pick in (min, max))
         span = f"{least:.4g}" if least == most else f"{least:.4g} to {most:.4g}"

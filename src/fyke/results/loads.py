@@ -49,13 +49,14 @@ class PartLoad:
 class LoadRow:
     """One load case. Forces are as they were solved: the factors count in the utilisation alone.
 
-    outcome: how the solve ended; current: m/s, mean over the net as built, towards: deg from +x turning to +y, None in
-    still water; wave_height (m, significant of an irregular sea), wave_period (s, of its peak), waves_towards (deg):
-    None without waves; support_force: N, largest of all frames; drag: N, in the last frame; tension: N, largest of all
-    parts and frames, in tension_part; mooring_tension: that of moorings alone, None without them; utilisation: the
-    largest of all parts, in utilisation_part; volume_left: share of the volume as built in the worst frame, None of
-    netting that encloses none; displacement: m, largest of a knot from where it was built; clearance: m, least above
-    the sea bed, None without a depth; parts: those with bars.
+    outcome: how the solve ended; current: m/s, mean over the net as built, towards: deg from +x turning to +y, None
+    in still water; wave_height (m, significant of an irregular sea), wave_period (s, of its peak), waves_towards
+    (deg): None without waves; support_force: N, largest of all frames; drag: N, in the last frame; tension: N,
+    largest of all parts and frames, in tension_part; mooring_tension: that of moorings alone, None without them;
+    collar_force: N, size of the force of the netting on the collar, the largest of several, in the last frame, None
+    without one; utilisation: the largest of all parts, in utilisation_part; volume_left: share of the volume as
+    built in the worst frame, None of netting that encloses none; displacement: m, largest of a knot from where it
+    was built; clearance: m, least above the sea bed, None without a depth; parts: those with bars.
     """
 
     name: str
@@ -74,6 +75,7 @@ class LoadRow:
     tension_part: str
     mooring_tension: float | None
     mooring_part: str
+    collar_force: float | None
     utilisation: float | None
     utilisation_part: str
     volume_left: float | None
@@ -117,6 +119,7 @@ def load_row(
         tension_part=most.called if most else "",
         mooring_tension=line.tension if line else None,
         mooring_part=line.called if line else "",
+        collar_force=_on_collars(figures),
         utilisation=worst.utilisation if worst else None,
         utilisation_part=worst.called if worst else "",
         volume_left=None if volume is None else volume / figures["volume_unloaded"],
@@ -191,6 +194,12 @@ def _sea(waves: dict[str, Any] | None) -> dict[str, float | None]:
         "wave_period": waves.get("period", waves.get("peak_period")),
         "waves_towards": _degrees(waves["direction"]),
     }
+
+
+def _on_collars(figures: dict[str, Any]) -> float | None:
+    """Size (N) of the force of the netting on the collar, the largest of several; None without one."""
+    sizes = [math.hypot(*one["from_netting"]) for one in figures.get("rings", ()) if one["kind"] == "collar"]
+    return max(sizes, default=None)
 
 
 def _degrees(vector: Sequence[float]) -> float:

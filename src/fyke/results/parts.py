@@ -300,7 +300,8 @@ def part_figures(system: System, result: Result, *, depth: float | None = None) 
             "volume_unloaded": built,
             "volume_smallest": float(frames.min()),
         }
-    heights = [part.clearance for part in parts if part.clearance is not None]
+    # Lines come down to their anchors anyway.
+    heights = [part.clearance for part in parts if part.clearance is not None and part.kind != "line"]
     return told | ({"clearance": min(heights)} if heights else {})
 
 

@@ -37,9 +37,8 @@ Knots = NDArray[np.int64]
 DENSE = 150
 # Two frequencies are one when they differ by less than this of their size.
 SAME = 1e-8
-# Squares of frequencies so many times below the rounding of the stiffness are no rounding: the net leaves by itself.
+# Squares of frequencies so many times below the rounding of the stiffness are no rounding.
 NOISE = 100.0
-UNSTABLE = "this equilibrium is not stable: a tube buckles, or something turns over, when it is touched"
 
 
 @dataclass(frozen=True)
@@ -49,11 +48,14 @@ class Modes:
     frequency: (k,) rad/s, circular, ascending; shape: (k, n, 3), motion of the knots without unit, the largest of
     them 1, zero where held or loose; loose: indices of the free knots that no chain of taut bars joins to a held
     knot. Nothing pulls those back, so they have no period and are left out of the modes.
+    falling: how many of the modes are no oscillations, because the stiffness pushes the net on when it is touched, as a
+    strut beyond its buckling load: their frequency is given as 0, too.
     """
 
     frequency: Array
     shape: Array
     loose: Knots
+    falling: int = 0
 
     @property
     def period(self) -> Array:
@@ -75,8 +77,7 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     then, the periods are those of the undamped net; drag may leave no oscillation at all. A frequency that is below
     the rounding of the stiffness is 0 and its period infinite.
 
-    Raises ValueError for a count below 1, positions of another shape or not finite, a free knot without mass, and an
-    equilibrium that a tube would leave by itself.
+    Raises ValueError for a count below 1, positions of another shape or not finite, a free knot without mass.
     """
     x = np.ascontiguousarray(position, dtype=float)
     _check(system, x, count)
@@ -89,20 +90,16 @@ def modes(system: System, position: ArrayLike, *, count: int = 6) -> Modes:
     # Rounding of K in units of omega^2. Shifted by that much, K has an inverse however little the bars pull.
     shift = float(np.finfo(float).eps * (stiffness.diagonal() / mass.diagonal()).max(initial=0.0))
     if size <= max(DENSE, 3 * count):
-        try:
-            square, vectors = _all(stiffness, mass, shift, count)
-        except LinAlgError as error:
-            raise ValueError(UNSTABLE) from error
+        square, vectors = _all(stiffness, mass, shift, count)
     else:
         solve = inverse(stiffness, mass, shift, pattern)
         # Lanczos' short BLAS products gain nothing from threads, which would fight with those of the solves.
         with threadpool_limits(1, user_api="blas"):
             square, vectors = lowest(solve, mass, shift, count)
-    if el.two_way.any() and square.min(initial=0.0) < -NOISE * shift:
-        raise ValueError(UNSTABLE)
     shape = np.zeros((count, n, 3))
     shape[:, pattern.free] = vectors.reshape(count, len(pattern.free), 3)
-    return Modes(np.sqrt(np.where(square > shift, square, 0.0)), _scaled(shape), loose)
+    falling = int(np.count_nonzero(square < -NOISE * shift)) if el.two_way.any() else 0
+    return Modes(np.sqrt(np.where(square > shift, square, 0.0)), _scaled(shape), loose, falling)
 
 
 def stiffness_of(system: System, position: Array) -> tuple[Elements, Pattern, Array, Knots]:
@@ -186,11 +183,14 @@ def _all(stiffness: sp.csc_matrix, mass: sp.bsr_matrix, shift: float, count: int
     if count == 0:
         return np.zeros(0), np.zeros((0, size))
     inertia = mass.toarray()
-    # Turned over, so that rounding is measured on the soft modes, which K hides under its stiff ones.
-    inverse, vectors = eigh(
-        inertia, stiffness.toarray() + shift * inertia, subset_by_index=(size - count, size - 1)
-    )
-    return 1.0 / inverse[::-1] - shift, vectors.T[::-1]
+    whole = stiffness.toarray() + shift * inertia
+    try:
+        # Turned over, so that rounding is measured on the soft modes, which K hides under its stiff ones.
+        turned, vectors = eigh(inertia, whole, subset_by_index=(size - count, size - 1))
+    except LinAlgError:
+        square, vectors = eigh(whole, inertia, subset_by_index=(0, count - 1))
+        return square - shift, vectors.T
+    return 1.0 / turned[::-1] - shift, vectors.T[::-1]
 
 
 def inverse(stiffness: sp.csc_matrix, mass: sp.bsr_matrix, shift: float, pattern: Pattern) -> Solve:

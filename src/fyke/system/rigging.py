@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import pi, sin
 from typing import cast
 
 import numpy as np
@@ -12,7 +13,7 @@ from ..case.lines import MooringsSpec
 from ..case.rigging import BodiesSpec
 from ..case.schema import Case
 from ..case.tubes import CollarSpec, RingSpec
-from ..netting.joining import sewn
+from ..netting.joining import once, sewn
 from ..netting.lattice import Corner, Side
 from ..netting.net import Net, Panel
 from ..netting.references import knot_at, real_step, row_of
@@ -47,14 +48,21 @@ def _roped(net: Net | None, case: Case) -> Net | None:
         net = sewn(net, *(cast("tuple[str, Side | Corner]", one.rpartition(".")[::2]) for one in seam.join))
     for rope in case.ropes:
         panel, side = _edge(net, rope.along)
-        net = with_rope(net, panel.edge(side), twines[rope.twine], length=rope.length, name=rope.name)
+        length = rope.length or _real_length(net, panel, side)
+        net = with_rope(net, once(panel.edge(side)), twines[rope.twine], length=length, name=rope.name)
     for part in case.tubulars:
         if part.along is not None:
             panel, side = _edge(net, part.along)
             twine = part.made(tubes).twine(part.tube)
             free = isinstance(part, CollarSpec)
             net = with_tubes(
-                net, panel.edge(side), twine, tubes=part.tubes, name=part.name, kind=part.kind, free=free
+                net,
+                once(panel.edge(side)),
+                twine,
+                tubes=part.tubes,
+                name=part.name,
+                kind=part.kind,
+                free=free,
             )
     return net
 
@@ -80,6 +88,15 @@ def _edge(net: Net, along: str) -> tuple[Panel, Side | Corner]:
     """Return the netting and the edge of it that NAME.EDGE says."""
     name, _, side = along.rpartition(".")
     return next(panel for panel in net.panels if panel.name == name), cast("Side | Corner", side)
+
+
+def _real_length(net: Net, panel: Panel, side: Side | Corner) -> float:
+    """Return the length (m) of an edge as it is built with the real meshes: round an axis, chords of their number."""
+    built = float(np.linalg.norm(np.diff(net.positions[panel.edge(side)], axis=0), axis=1).sum())
+    few, many = panel.meshes[0], panel.real_meshes[0]
+    if few == many or not panel.closed or panel.folds or side not in ("top", "bottom"):
+        return built
+    return built * (many * sin(pi / many)) / (few * sin(pi / few))
 
 
 def _places(net: Net, bodies: BodiesSpec, case: Case) -> Indices:

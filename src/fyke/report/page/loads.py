@@ -14,6 +14,7 @@ _SEA = (
     ("Waves towards", "waves_towards"),
 )
 _MOORED = (("Largest mooring tension (N)", "mooring_tension"),)
+_AFLOAT = (("Netting on collar (N)", "collar_force"),)
 
 
 def load_columns(figures: dict[str, Any]) -> list[str]:
@@ -25,6 +26,7 @@ def load_columns(figures: dict[str, Any]) -> list[str]:
         "Towards",
         *(name for name, _ in _there(cases, _SEA)),
         "Force on supports (N)",
+        *(name for name, _ in _there(cases, _AFLOAT)),
         *(name for name, _ in _there(cases, _MOORED)),
         "Largest tension (N)",
         "Of breaking strength",
@@ -49,6 +51,7 @@ def _row(one: dict[str, Any], cases: list[dict[str, Any]]) -> list[Cell]:
         (number(one["towards"], "°", 4), one["towards"]),
         *((number(one[key], units.get(key, "")), one[key]) for _, key in _there(cases, _SEA)),
         (number(one["support_force"]), one["support_force"]),
+        *((number(one[key]), one[key]) for _, key in _there(cases, _AFLOAT)),
         *((number(one[key]) + _of(one["mooring_part"]), one[key]) for _, key in _there(cases, _MOORED)),
         (number(one["tension"]) + _of(one["tension_part"]), one["tension"]),
         ("–" if used is None else number(100.0 * used, "%", 3) + _of(one["utilisation_part"]), used),

@@ -15,6 +15,7 @@ from ...netting.net import Panel
 from ...results.audit import forces_on_knots
 from ...results.lines import line_words
 from ...results.parts import part_words
+from ...results.periods import period_words
 from ...results.water import water_words
 from ...solve.result import Result
 from ...system.system import System
@@ -68,7 +69,12 @@ def key_numbers(figures: dict[str, Any]) -> list[Row]:
         ("Knots and bars", f"{figures['knots']}, {figures['bars']}", figures["knots"]),
         *(
             (name[:1].upper() + name[1:], text, None)
-            for name, text in (*part_words(figures), *line_words(figures), *water_words(figures))
+            for name, text in (
+                *part_words(figures),
+                *period_words(figures),
+                *line_words(figures),
+                *water_words(figures),
+            )
         ),
     ]
 
@@ -117,6 +123,7 @@ def energy_rows(figures: dict[str, Any]) -> list[Row]:
         ("Work of turning added mass", e["added_mass_work"]),
         *([("Work of the inertia of the water", e["inertia_work"])] if e["inertia_work"] else []),
         *([("Work of bending and bed", e["parts_work"])] if e["parts_work"] else []),
+        *([("Work of moved supports", e["support_work"])] if e["support_work"] else []),
         ("Lost to drag", -e["drag_dissipation"]),
         ("Lost in the twine", -e["twine_dissipation"]),
         ("Gone into motion", -e["kinetic"]),
