@@ -126,6 +126,15 @@ def reasons(folder: Path) -> list[str]:
         (claim_of({"reference = 2.0": "reference = 0.0", "tolerance": "relative"}), ["on a reference of 0"]),
         (claim_of({"reference = 2.0": 'reference = 2.5\nside = "above"'}), ["exact"]),
         (claim_of({"reference = 2.0": 'reference = 2.0\nside = "left"'}), ["side found 'left'", "above"]),
+        (claim_of({"reference = 2.0": "reference = [2.0]"}), ["reference found [2.0]"]),
+        (claim_of({"reference = 2.0": "reference = nan"}), ["reference found nan"]),
+        (claim_of({'title = "A sum"': "title = 3"}), ["title found 3 allowed a text"]),
+        (claim_of({'title = "A sum"': 'title = "A"\nfast = "no"'}), ["fast found 'no' allowed true or false"]),
+        (claim_of({'title = "A sum"': 'title = "A"\nneeds = "moordyn"'}), ["needs", "a list of texts"]),
+        (claim_of({'title = "A sum"': 'title = "A"\ndata = 3'}), ["data found 3"]),
+        (claim_of({}, '[data.x]\nfile = "x.csv"\ncolumns = ["x"]\n'), ["data", "file and columns"]),
+        (GOOD[: GOOD.index("[[row]]")] + "row = 3", ["row found 3"]),
+        (GOOD[: GOOD.index("[[row]]")], ["row found nothing"]),
     ],
     ids=lambda value: None if isinstance(value, list) else "",
 )  # fmt: skip
@@ -163,6 +172,27 @@ def test_what_a_script_found_before_it_raised_is_judged(folder):
     for quantity in ("the rest", "the claim itself"):
         verdict, reason = mine[quantity]
         assert verdict == "fails" and "ArithmeticError: the rest is lost (bad.py, line 7)" in reason
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("    raise SystemExit(3)", "SystemExit: 3"),
+        ("    yield 3.0", "measure is to yield Found, not 3.0"),
+        ("    return None", "TypeError"),
+    ],
+    ids=["leaves", "yields a number", "returns nothing"],
+)
+def test_a_script_that_is_none_fails_its_rows(folder, body, said):
+    script = f"from fyke.study import Found\n\n\ndef measure(tables):\n{body}\n"
+    (told,) = reasons(folder(bad_toml=claim_of({"sum.py": "bad.py"}), bad_py=script))
+    assert said in told
+
+
+def test_a_script_that_takes_its_process_with_it_fails_and_the_others_run(folder):
+    script = SUM + "    import os\n    os._exit(9)\n"
+    report = validate(claims_in(folder(bad_toml=claim_of({"sum.py": "bad.py"}), bad_py=script)), jobs=2)
+    assert [(row.claim, row.verdict) for row in report.rows] == [("bad", "fails"), ("good", "holds")]
 
 
 def test_what_no_row_asks_for_and_what_is_no_number_fails(folder):
@@ -285,8 +315,16 @@ def test_the_command_writes_a_report_and_a_page(folder):
 
 
 def test_json_of_the_command(folder):
-    code, told = run(folder(), "-j", 1, "--json", "--no-write")
+    """With numbers of numpy, and what is no number as null."""
+    lost = (
+        "import numpy as np\n" + SUM.replace("1.0 + 1.0", "np.int64(2)") + "    yield Found('sum', np.nan)\n"
+    )
+    root = folder(bad_toml=claim_of({"sum.py": "bad.py"}), bad_py=lost)
+    code, told = run(root, "-j", 1, "--json", "--no-write")
     found = json.loads(told)
-    assert code == 0 and found["ok"] is True
-    (only,) = found["rows"]
-    assert (only["quantity"], only["ours"], only["verdict"]) == ("one and one", 2.0, "holds")
+    assert code == 1 and found["ok"] is False and set(found["seconds"]) == {"bad", "good"}
+    assert [(row["quantity"], row["ours"], row["verdict"]) for row in found["rows"]] == [
+        ("one and one", 2.0, "holds"),
+        ("one and one", None, "fails"),
+        ("one and one", 2.0, "holds"),
+    ]

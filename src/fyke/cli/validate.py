@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from math import isfinite
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.text import Text
@@ -58,10 +60,18 @@ def validate_folder(folder: Path, wishes: Wishes) -> int:
         )
     written = _write(folder, report, wishes) if wishes.write and not wishes.only else []
     if wishes.json:
-        print_json({"ok": report.ok, "rows": [asdict(row) for row in report.rows], "seconds": report.seconds})
+        print_json({"ok": report.ok, "rows": [_plain(row) for row in report.rows], "seconds": report.seconds})
     else:
         _show(stdout(), report, written, every=wishes.every)
     return DONE if report.ok else NOT_CONVERGED
+
+
+def _plain(row: Judged) -> dict[str, Any]:
+    """A row for JSON, which has no numbers that are none."""
+    return {
+        name: None if isinstance(value, float) and not isfinite(value) else value
+        for name, value in asdict(row).items()
+    }
 
 
 def _chosen(files: list[Path], only: tuple[str, ...]) -> list[Path]:

@@ -133,7 +133,9 @@ def read_claim(file: Path) -> Claim:
         raw = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise CaseError([Problem(str(file), str(error), "a claim in TOML", "correct the file")]) from None
-    problems: list[Problem] = [*_unknown(str(file), raw, _KEYS)]
+    problems: list[Problem] = [*_unknown(str(file), raw, _KEYS), *_ill_formed(str(file), raw)]
+    if problems:
+        raise CaseError(problems)
     for key in _NEEDED:
         if not raw.get(key):
             problems.append(
@@ -172,6 +174,39 @@ def read_claim(file: Path) -> Claim:
     )
 
 
+def _ill_formed(where: str, raw: dict[str, Any]) -> list[Problem]:
+    """Keys whose values are of no use as what they are."""
+    words = {"title", "level", "source", "script", "case"}
+    shapes = {
+        "a text": [key for key in words if not isinstance(raw.get(key, ""), str)],
+        "true or false": [key for key in ("fast",) if not isinstance(raw.get(key, True), bool)],
+        "a list of texts": [key for key in ("needs",) if not _is_list(raw.get(key, []), str)],
+        "tables, [[row]]": [key for key in ("row",) if not _is_list(raw.get(key, []), dict)],
+        "tables with file and columns, [data.NAME]": [
+            key for key in ("data",) if not _are_tables(raw.get(key, {}))
+        ],
+    }
+    return [
+        Problem(f"{where}, {key}", repr(raw[key])[:60], allowed, f"write {allowed}")
+        for allowed, keys in shapes.items()
+        for key in sorted(keys)
+    ]
+
+
+def _is_list(value: Any, of: type) -> bool:
+    return isinstance(value, list) and all(isinstance(one, of) for one in value)
+
+
+def _are_tables(value: Any) -> bool:
+    return isinstance(value, dict) and all(
+        isinstance(one, dict)
+        and isinstance(one.get("file", ""), str)
+        and isinstance(one.get("columns", {}), dict)
+        and all(isinstance(unit, str) for unit in one.get("columns", {}).values())
+        for one in value.values()
+    )
+
+
 def _unknown(where: str, raw: dict[str, Any], known: set[str]) -> list[Problem]:
     out = []
     for key in sorted(set(raw) - known):
@@ -188,13 +223,14 @@ def _row(where: str, raw: dict[str, Any], problems: list[Problem]) -> RowSpec | 
         if not isinstance(raw.get(key), str):
             wrong.append(Problem(f"{where}, {key}", repr(raw.get(key)), "a text", f"give {key}"))
     reference = raw.get("reference", FOUND)
-    if isinstance(reference, str) and reference not in WORDS:
+    is_number = isinstance(reference, int | float) and isfinite(reference)
+    if not is_number and reference not in WORDS:
         wrong.append(
             Problem(f"{where}, reference", repr(reference), f"a number or {', '.join(WORDS)}", "give one")
         )
-    if raw.get("side", "both") not in SIDES:
+    if str(raw.get("side", "both")) not in SIDES:
         wrong.append(Problem(f"{where}, side", repr(raw["side"]), ", ".join(SIDES), "write one of these"))
-    judged = reference not in {MISSING, NONE}
+    judged = reference not in (MISSING, NONE)
     given = [key for key in ("tolerance", "relative") if key in raw]
     if judged and len(given) != 1:
         found = "both tolerance and relative" if given else "no tolerance"

@@ -47,12 +47,15 @@ def measure(claim: Claim) -> Measured:
         with _silent():
             if claim.script is not None:
                 out.module = _script((claim.file.parent / claim.script).resolve())
-                out.found.extend(out.module.measure(tables))
+                for one in out.module.measure(tables):
+                    if not isinstance(one, Found):
+                        raise TypeError(f"measure is to yield Found, not {one!r}")
+                    out.found.append(one)
             elif claim.case is not None:
                 out.found.extend(_of_case(claim))
     except CaseError as error:
         out.wrong = str(error)
-    except Exception as error:
+    except (Exception, SystemExit) as error:
         out.wrong = last_lines(error)
     return out
 

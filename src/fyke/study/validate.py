@@ -138,10 +138,20 @@ def _here(files: Sequence[Path], draw: bool) -> Iterator[tuple[Path, Judgement]]
 
 def _in_processes(files: Sequence[Path], jobs: int, draw: bool) -> Iterator[tuple[Path, Judgement]]:
     # Fresh processes: a fork of one whose kernels have started threads may hang.
+    lost = []
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
         waiting = {pool.submit(judge, file, draw=draw): file for file in files}
         for future in as_completed(waiting):
-            yield waiting[future], future.result()
+            if future.exception() is None:
+                yield waiting[future], future.result()
+            else:
+                lost.append(waiting[future])
+    # A process that died takes with it all that had not been judged: these have one each.
+    for file in lost:
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+            alone = pool.submit(judge, file, draw=draw)
+            error = alone.exception()
+            yield file, alone.result() if error is None else Judgement((_broken(file, str(error)),), 0.0)
 
 
 def _judged(claim: Claim, measured: Measured) -> Iterator[Judged]:
@@ -200,8 +210,8 @@ def _line(claim: Claim, spec: RowSpec, one: Found | None, verdict: Verdict, reas
         case=one.case if one else "",
         quantity=spec.quantity,
         unit=spec.unit,
-        ours=one.ours if one else None,
-        reference=reference,
+        ours=float(one.ours) if one else None,
+        reference=None if reference is None else float(reference),
         tolerance=spec.tolerance,
         # What is shown beside another figure is told in per cent of it.
         relative=spec.relative or (verdict == "shown" and bool(reference)),
