@@ -14,6 +14,7 @@ import pytest
 import fyke
 from fyke.case import parse_case
 from fyke.case.errors import CaseError
+from fyke.case.grouping import knots_of
 from fyke.forces.bed import footprint
 from fyke.forces.evaluate import evaluate
 from fyke.netting.joining import sewn
@@ -347,6 +348,37 @@ def test_totals_of_an_example_are_the_same_whatever_the_group(example):
         )
     assert told[0][:-1] == pytest.approx(told[1][:-1], rel=1e-9)
     assert told[0][-1] < told[1][-1]
+
+
+@pytest.mark.parametrize("file", sorted(EXAMPLES.glob("*.toml")), ids=lambda file: file.stem)
+def test_a_budget_counts_the_knots_that_are_laid(file):
+    case = fyke.load_case(file)
+    for piece in case.pieces:
+        netting = case.netting[piece.netting]
+        made = piece.lay(netting, case.twines[netting.twine])
+        assert knots_of(piece, netting, piece.group) == made.knot_count
+
+
+@pytest.mark.parametrize("bottom", ["true", "false"])
+@pytest.mark.parametrize(
+    ("mesh", "segments"), [("diamond", 1), ("square", 1), ("square", 3), ("hexagonal", 2)]
+)
+def test_a_budget_counts_boxes_and_segments(mesh, segments, bottom):
+    if mesh == "hexagonal":
+        bottom = "false"
+    old = [
+        ('"square"', f'"{mesh}"'),
+        ("[48, 24]", "[8, 12, 6]"),
+        ('kind = "cylinder"', f'kind = "box"\nbottom = {bottom}'),
+        ('diameter = "0.45 m"', "size = [0.2, 0.3, 0.15]"),
+        ('height = "0.71 m"', ""),
+        ("group = 1", "group = 2" if segments == 1 else ""),
+    ]
+    extra = f"segments = {segments}" + ('\nlong_bar = "30 mm"' if mesh == "hexagonal" else "")
+    case = case_of(old=old, netting=extra)
+    (piece,), netting = case.pieces, case.netting["main"]
+    made = piece.lay(netting, case.twines["main"])
+    assert knots_of(piece, netting, piece.group) == made.knot_count
 
 
 def case_of(*, old=(), netting="", grouping=""):

@@ -220,9 +220,25 @@ WRONG = {
         LINE.replace('length = "36 m"', 'pretension = "1 N"'),
         ("[[gear]] 2 pretension", "1 N of line 'warp'", "N or more at its end", "another pretension"),
     ),
+    "a pretension of a line on a line": (
+        LINE
+        + LINE.replace('"warp"', '"more"')
+        .replace('"cage.top[0]"', '"warp:5"')
+        .replace("length = ", "pretension = ")
+        .replace("36 m", "1 kN"),
+        ("[[gear]] 3 pretension", "1000 N of line 'more'", "between places and netting", "give length"),
+    ),
     "a rim that is not there": (
         MOORINGS.replace('"cage.top"', '"cage.tip"'),
         ("[[gear]] 2 around", '"cage.tip" of moorings', '"NAME.EDGE"', 'did you mean "cage.top"?'),
+    ),
+    "around themselves": (
+        MOORINGS.replace('"cage.top"', '"moor"'),
+        ("[[gear]] 2 around", '"moor" of moorings', "name of a ring or rope", "did you mean"),
+    ),
+    "to one of several": (
+        MOORINGS + LINE.replace("cage.top[0]", "moor:2"),
+        ("[[gear]] 3 to", '"moor:2" of line', '"moor 1"', "did you mean"),
     ),
     "more lines than knots": (
         MOORINGS.replace("count = 4", "count = 40"),
@@ -295,3 +311,34 @@ def test_explicit_steppers_are_refused_with_a_bed():
     solve = '[solve]\nkind = "dynamic"\nduration = 1.0\nstepper = "verner"\n'
     with pytest.raises(CaseError, match="which explicit steps do not know"):
         parse_case(HEAD + CAGE + LINE + solve)
+
+
+def test_pictures_show_the_sea_bed_that_lines_come_down_to(tmp_path):
+    """Not where the bed is far below, and not without one."""
+    from fyke.report.figures import equilibrium_shape
+    from fyke.report.ground import bed_under
+
+    text = (HEAD + LINE).replace('"cage.top[0]"', "[0.0, 0.0, -1.0]").replace('"36 m"', "48")
+    for change, level in (
+        (("", ""), -20.0),
+        (("[bed]\n", ""), None),
+        (("depth = 20.0", "depth = 40.0"), None),
+    ):
+        case, net = built(text.replace(*change, 1))
+        result = solve_static(build_system(net, case), tolerance=1e-3)
+        assert bed_under(result) == level
+        shown = {patch.get_gid() for ax in equilibrium_shape(result).axes for patch in ax.patches}
+        assert ("sea bed" in shown) == (level is not None)
+
+
+def test_the_page_has_a_row_for_each_line():
+    from fyke.report.page.lines import LINE_COLUMNS, line_table
+
+    case, net = built(WHOLE)
+    system = build_system(net, case)
+    figures = line_figures(system, solve_static(system, tolerance=1e-3))
+    table = line_table(figures)
+    assert [row[0][0] for row in table] == ["warp", "moor 1", "moor 2", "moor 3", "moor 4"]
+    assert all(len(row) == len(LINE_COLUMNS) for row in table)
+    assert table[1][2][0].endswith(", anchor") and table[1][2][1] == figures["lines"][1]["tension_from"]
+    assert line_table({}) == []

@@ -18,7 +18,7 @@ pytestmark = [
 ]
 
 
-@pytest.mark.parametrize("name", ["moordyn_panel", "moordyn_chain"])
+@pytest.mark.parametrize("name", ["moordyn_panel", "moordyn_chain", "moordyn_mooring"])
 def test_moordyn_comes_to_the_rest_of_statics(name):
     rows = judge(VALIDATION / f"{name}.toml").rows
     assert rows and all(row.verdict == "holds" for row in rows), rows

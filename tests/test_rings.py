@@ -12,6 +12,7 @@ import fyke
 from fyke.case import CaseError, parse_case
 from fyke.forces.bending import Bending
 from fyke.forces.evaluate import evaluate
+from fyke.netting.chain import chain
 from fyke.netting.lines import LinePiece, with_line
 from fyke.netting.shapes import cage
 from fyke.netting.sheet import Netting
@@ -25,6 +26,7 @@ from fyke.report.sections import sections
 from fyke.results import by_part, ring_figures, rings_told, write_rings
 from fyke.results.rings import ring_words
 from fyke.solve.result import Result
+from fyke.solve.stability import unstable_direction
 from fyke.system.hanging import hanging
 
 PIPE = Tube.of("HDPE", diameter=0.315, wall=0.0179)
@@ -211,6 +213,10 @@ WRONG = {
     "a text for a switch": (
         WHOLE.replace("rigid = true", 'rigid = "yes"'),
         ("[[gear]] 4 rigid", '"yes"', "true or false", "without quotes"),
+    ),
+    "explicit steps": (
+        WHOLE + '[solve]\nkind = "dynamic"\nduration = 1\nstepper = "verner"\n',
+        ("[solve] stepper", '"verner" with rings or collars', "implicit", "leave it out"),
     ),
     "a cage held by nothing": (
         WHOLE.replace('height = "8 m"', 'height = "8 m"\nfixed = "none"'),
@@ -461,3 +467,29 @@ def test_tables_tell_the_rings(moored, tmp_path):
     assert parts["collar"].kind == "collar"
     assert parts["collar"].utilisation == figures["rings"][0]["utilisation"]
     assert parts["sinker tube"].slack_bars == 0
+
+
+def test_chain_that_rubs_on_the_ground_is_not_taken_for_a_tube_that_buckles():
+    """Friction has no potential: the symmetric part of its stiffness alone has directions that fall."""
+    hoop = ring(PIPE.twine("pipe"), diameter=4.0, knots=12, centre=(50.0, 0.0, -2.0))
+    held = hoop.fixed.copy()
+    held[:6] = True
+    heavy = chain(0.022, name="chain")
+    net = with_line(
+        replace(hoop, fixed=held),
+        (0.0, 0.0, -10.0),
+        6,
+        [LinePiece(heavy, 52.0, 12)],
+        name="mooring",
+        bed=-10.0,
+    )
+    system = fyke.make_system(net, water=fyke.Water(1025.0), bed=fyke.Bed(10.0))
+    result = fyke.solve_static(system)
+    assert result.outcome.ok
+    found = result.position[-1]
+    assert unstable_direction(system, found) is None
+    lies = np.flatnonzero((found[:, 2] < -10.0) & ~net.fixed)
+    assert len(lies) > 3
+    dragged = found.copy()
+    dragged[lies, 0] -= 0.01
+    assert unstable_direction(system, dragged) is None

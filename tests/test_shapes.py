@@ -810,6 +810,10 @@ SPOILT |= {
             "joined already",
         ),
     ),
+    "rope along nothing": (
+        line_case().replace("hanging_ratio = 0.6", "hanging_ratio = 1e-308"),
+        ("[[gear]] 2 along", "e-308 m long", "1e-06 m or more", "units"),
+    ),
     "held by no seam": (
         four_walls(*ALL_ROUND),
         ("[[gear]] 5 fixed", "none", "for a static case", "nothing would hold it"),

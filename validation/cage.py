@@ -1,36 +1,34 @@
-"""The model cage of examples/model_cage.toml at the speeds of the tests, whose forces were not found."""
+"""The model cage of examples/c01_cage.toml at the speeds of the tests, whose forces were not found."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import fyke
+from fyke.case.load import load_cases_of
 from fyke.study import Found
 
-CASE = (Path(__file__).resolve().parents[1] / "examples" / "model_cage.toml").read_text(encoding="utf-8")
-SPEED = "velocity = [0.5, 0.0, 0.0]"
-SPEEDS = (0.12, 0.26, 0.39, 0.50, 0.65, 0.76, 0.93)  # m/s
-
-
+CASE = (Path(__file__).resolve().parents[1] / "examples" / "c01_cage.toml").read_text(encoding="utf-8")
 SHELTER = "wake = 0.886"
 
 
-def drag(speed, shelter=SHELTER):
-    """Drag (N) of the cage in a current."""
-    for words in (SPEED, SHELTER):
-        if words not in CASE:
-            raise ValueError(f"'{words}' is not in the case")
-    text = CASE.replace(SPEED, f"velocity = [{speed}, 0.0, 0.0]").replace(SHELTER, shelter)
+def drags(text):
+    """Drag (N) of the cage by the name of its load case."""
     case = fyke.parse_case(text)
-    result = fyke.solve_static(fyke.build_system(fyke.build_net(case), case))
-    if not result.outcome.ok:
-        raise RuntimeError(f"{speed} m/s: {result.outcome.message}")
-    return result.hydrodynamic_force[-1][0]
+    net = fyke.build_net(case)
+    out = {}
+    for spec, _, one in load_cases_of(case):
+        result = fyke.solve_static(fyke.build_system(net, one))
+        if not result.outcome.ok:
+            raise RuntimeError(f"{spec.name} m/s: {result.outcome.message}")
+        out[spec.name] = result.hydrodynamic_force[-1][0]
+    return out
 
 
 def measure(tables):
-    drags = {speed: drag(speed) for speed in SPEEDS}
-    for speed, found in drags.items():
-        yield Found("drag", found, case=f"{speed:g} m/s")
-    for speed in (SPEEDS[0], SPEEDS[-1]):
-        yield Found("open", 100.0 * (drag(speed, 'wake = "off"') / drags[speed] - 1.0), case=f"{speed:g} m/s")
+    if SHELTER not in CASE:
+        raise ValueError(f"'{SHELTER}' is not in the case")
+    sheltered, bare = drags(CASE), drags(CASE.replace(SHELTER, 'wake = "off"'))
+    for name, drag in sheltered.items():
+        yield Found("drag", drag, case=f"{name} m/s")
+        yield Found("open", 100.0 * (bare[name] / drag - 1.0), case=f"{name} m/s")

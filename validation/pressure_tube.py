@@ -26,7 +26,7 @@ START = 40.0
 
 
 def tube(row):
-    """Places (n, 3) m and tensions (m,) N of a tube that settled, and its net."""
+    """A tube that settled, and its net."""
     around, bar, begin = int(row["around"]), row["l0"], np.radians(START)
     twine = thread(min(row["EA"], STIFF))
     height = 2.0 * ROWS * bar * np.cos(begin)
@@ -53,13 +53,14 @@ def tube(row):
         moved = np.abs(result.position[-1] - points).max()
         points = 0.5 * (points + result.position[-1])
         if moved < STILL * row["radius"]:
-            return result.position[-1], result.tension[-1], net
+            return result, net
     raise RuntimeError(f"the pressure still changes by {moved:.1e} m after {ROUNDS} rounds")
 
 
 def measure(tables):
     for row in tables["tubes"]:
-        x, tension, net = tube(row)
+        result, net = tube(row)
+        x, tension = result.position[-1], result.tension[-1]
         a, b = net.bars.T
         d = x[b] - x[a]
         # Bars halfway between the two ends.
@@ -70,3 +71,5 @@ def measure(tables):
         yield Found("angle", angle[middle].mean(), row["angle"], case)
         yield Found("tension", tension[middle].mean(), row["tension"], case)
         yield Found("radius", np.hypot(*x[np.unique(net.bars[middle]), :2].T).mean(), row["radius"], case)
+        yield Found("bar", np.linalg.norm(d, axis=1)[middle].mean(), row["bar"], case)
+        yield Found("axial", -result.support_reaction[-1][2], -row["axial"], case)

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from math import pi
 from typing import TYPE_CHECKING, Any, cast
 
-from ..netting.hexagon import Hexagon
 from ..netting.lattice import taut_ratios
-from ..netting.multiples import LEAST_AROUND
 from ..netting.references import IN_ROW
 from .bodies_check import body_findings
 from .box import BoxSpec
@@ -19,7 +16,8 @@ from .places import Path
 from .rigging import BodiesSpec, RopeSpec
 from .rows import in_row_findings, length_of, rows_of
 from .seams_check import joined_names, seam_findings
-from .shapes import ConeSpec, CylinderSpec, RoundSpec
+from .shapes import RoundSpec
+from .shapes_check import hexagons_round, one_ratio, round_findings
 from .tapered import TaperedSpec
 from .tapered_check import cutting
 from .tube_check import tubular_findings
@@ -32,6 +30,7 @@ if TYPE_CHECKING:
 
 _LABEL = re.compile(r"(?:([^:]*):)?(\d{1,9})-(\d{1,9})", re.ASCII)
 _ANCHORED = ("line", "moorings")  # kinds of gear that may hold others
+_LEAST_EDGE = 1e-6  # m, that a rope can follow; a shorter one is a slip of the pen
 _FLAT = ("panel", "trapezoid", "triangle")
 
 
@@ -65,9 +64,9 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             if wrong_cuts:
                 continue
         if isinstance(piece, BoxSpec):
-            yield from _hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
+            yield from hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
         if isinstance(piece, RoundSpec):
-            yield from _round(path, piece, parts.nettings.get(piece.netting))
+            yield from round_findings(path, piece, parts.nettings.get(piece.netting))
         yield from _frame(path, piece, parts.nettings.get(piece.netting))
     sheets = sheets_by_name(parts)
     yield from seam_findings(parts, sheets)
@@ -140,85 +139,6 @@ def _one_size(path: Path, keys: dict[str, Any]) -> Iterator[Finding]:
         yield (*path, "size"), found, "one of size and hanging_ratio", cure
 
 
-def _round(path: Path, piece: RoundSpec, netting: NettingSpec | None) -> Iterator[Finding]:
-    """What a shape round an axis must have to close."""
-    if piece.meshes[0] < LEAST_AROUND:
-        found = f"{piece.meshes[0]} around in {piece.called}"
-        allowed = f"at least {LEAST_AROUND} meshes around, and as many as its netting has"
-        yield (*path, "meshes"), found, allowed, "give first the meshes around, then those along the height"
-    if isinstance(piece, CylinderSpec | ConeSpec):
-        yield from _one_round_size(path, piece)
-        yield from _closing_ratio(path, piece, netting)
-    yield from _hexagons_round(path, piece, netting)
-    if netting is None or netting.mesh == "diamond":
-        return
-    allowed = "diamond netting, which can be gathered in one knot"
-    allowed += "; square netting has bars round its edge" * (netting.mesh == "square")
-    if isinstance(piece, ConeSpec):
-        cure = f'write mesh = "diamond" in [netting.{piece.netting}], or kind = "frustum"'
-        yield (*path, "kind"), f"{piece.called} of {netting.mesh_name} netting", allowed, cure
-    if piece.floor is not None:
-        cure = f'leave bottom out, or write mesh = "diamond" in [netting.{piece.netting}]'
-        yield (*path, "bottom"), f"a bottom of {netting.mesh_name} netting in {piece.called}", allowed, cure
-
-
-def _hexagons_round(
-    path: Path, piece: Piece, netting: NettingSpec | None, *, bottom: bool = False
-) -> Iterator[Finding]:
-    """What hexagons must have to close round, and that no bottom of theirs matches the walls of a box."""
-    if netting is None or not isinstance(netting.mesh, Hexagon):
-        return
-    if netting.mesh.turned:
-        found = f"hexagons with their long bars round {piece.called}"
-        cure = f'write orientation = "T0" in [netting.{piece.netting}]'
-        yield (*path, "netting"), found, "hexagons with their long bars along the height", cure
-    if bottom:
-        allowed = "diamond or square netting, whose bottom matches its walls knot by knot"
-        cure = f'write bottom = false, or mesh = "diamond" in [netting.{piece.netting}]'
-        yield (*path, "bottom"), f"a bottom of hexagonal netting in {piece.called}", allowed, cure
-
-
-def _one_round_size(path: Path, piece: CylinderSpec | ConeSpec) -> Iterator[Finding]:
-    if piece.sized:
-        return
-    given = [key for key in ("diameter", "height", "hanging_ratio") if getattr(piece, key) is not None]
-    found = f"{' and '.join(given) or 'nothing of these'} in {piece.called}"
-    missing = " and ".join(f'{key} = "1.5 m"' for key in ("diameter", "height") if key not in given)
-    cure = "leave out hanging_ratio, or the others" if "hanging_ratio" in given else f"add {missing}"
-    yield (*path, "diameter"), found, "diameter and height, or hanging_ratio instead of both", cure
-
-
-def _closing_ratio(
-    path: Path, piece: CylinderSpec | ConeSpec, netting: NettingSpec | None
-) -> Iterator[Finding]:
-    ratio = piece.hanging_ratio
-    if netting is None or ratio is None or not piece.sized:
-        return
-    key = (*path, "hanging_ratio")
-    if isinstance(ratio, tuple) and max(ratio) > 1.0:
-        allowed = "E1 and E2 above 0 and at most 1: netting is never longer than stretched"
-        cure = "0.5 to 0.8 is common for E1; E2 = sqrt(1 - E1^2) just straightens the bars of diamonds"
-        yield key, f"{written(list(ratio))} of {piece.called}", allowed, cure
-    elif isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
-        yield from _pair(path, ratio, netting)
-    elif isinstance(piece, ConeSpec) and piece.rims(netting) is None:
-        around, slant = piece.flat_size(netting)
-        found = f"{written(ratio)}: the netting of {piece.called} is {slant:.4g} m from rim to tip"
-        allowed = f"a slant above the radius of the rim, here {around / pi:.4g} m, so that it closes"
-        yield key, found, allowed, "make E1 smaller, or give it fewer meshes around or more along the height"
-
-
-def _pair(path: Path, ratio: float, netting: NettingSpec) -> Iterator[Finding]:
-    """What is wrong with one hanging ratio where no other one makes every bar just taut."""
-    if isinstance(netting.mesh, Hexagon):
-        long = netting.mesh.long_bar
-        allowed = f"at least {long / (1.0 + long):.4g}, where the slanted bars lie across, or [E1, E2]"
-        yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, 'give both, or write orientation = "T0"'
-        return
-    allowed = "[E1, E2] for square mesh, width and height over the stretched ones"
-    yield (*path, "hanging_ratio"), f"{ratio:g}", allowed, f"write hanging_ratio = [{ratio:g}, {ratio:g}]"
-
-
 def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Finding]:
     if netting is None or not piece.sized:
         return
@@ -227,7 +147,7 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
         return  # told already
     if isinstance(ratio, float) and taut_ratios(netting.mesh, ratio) is None:
         if isinstance(piece, FlatSpec | BoxSpec):
-            yield from _pair(path, ratio, netting)
+            yield from one_ratio(path, ratio, netting)
         return
     for sheet in piece.sheets(netting):
         if sheet.strain(netting) > LARGEST_STRAIN:
@@ -301,8 +221,8 @@ def _rope(
             yield one
             continue
         count, built = one
-        if count == 1:
-            yield _one_knot(path, called, rope.along)
+        if count == 1 or built < _LEAST_EDGE:
+            yield _no_way(path, called, rope.along, count, built)
         elif rope.length is not None and built > (1.0 + LARGEST_STRAIN) * rope.length:
             found = f"{rope.length:g} m of {called}, on an edge of {built:.4g} m: a strain of "
             found += f"{(built / rope.length - 1.0) * 100:.3g} % before anything acts"
@@ -332,13 +252,19 @@ def _way(
     for one in edge_named(path, called, part.along, parts, sheets):
         if len(one) == 4:
             yield one
-        elif one[0] == 1:
-            yield _one_knot(path, called, part.along)
+        elif one[0] == 1 or one[1] < _LEAST_EDGE:
+            yield _no_way(path, called, part.along, *one)
 
 
-def _one_knot(path: Path, called: str, along: str) -> Finding:
-    found = f"{written(along)} of {called}, one knot"
-    return (*path, "along"), found, "an edge of several knots", "name another edge"
+def _no_way(path: Path, called: str, along: str, count: int, built: float) -> Finding:
+    if count == 1:
+        found = f"{written(along)} of {called}, one knot"
+        return (*path, "along"), found, "an edge of several knots", "name another edge"
+    found, allowed = (
+        f"{written(along)} of {called}, {built:g} m long",
+        f"an edge of {_LEAST_EDGE:g} m or more",
+    )
+    return (*path, "along"), found, allowed, "check the units of the netting that it belongs to"
 
 
 def _hung(

@@ -133,7 +133,8 @@ def _knots(sheet: Sheet, netting: NettingSpec, group: int) -> int:
     else:
         knots, bars = (i + (not closed)) * rows, i * (j + 1) + (i + (not closed)) * j
     if sheet.sewn and not closed:
-        knots -= 2 * sum(meshes)
+        edge = 2 * sum(meshes)
+        knots, bars = knots - edge, bars - edge * (mesh == "square")
     return knots + (netting.segments - 1) * bars
 
 

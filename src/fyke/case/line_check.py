@@ -37,7 +37,9 @@ def line_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
             yield ("chain", name), f"{written(name)}, which is also a twine", allowed, "choose another name"
     there = twines + [name for name, _ in parts.items("chain")]
     sheets, waiting = sheets_by_name(parts), dict[int, set[str]]()
-    rows = rows_of(parts, sheets)
+    # Moorings are several lines: one of them is "NAME 1".
+    many = {parts.name_of(index) for index, line in parts.lines.items() if isinstance(line, MooringsSpec)}
+    rows = {name: last for name, last in rows_of(parts, sheets).items() if name not in many}
     for index, keys in parts.gear_tables():
         for number, piece in enumerate(_pieces(keys)):
             yield from reference(("gear", index, "pieces", number, "twine"), piece, "twine", there)
@@ -176,7 +178,12 @@ def _reach(path: Path, line: LaidSpec, called: str, parts: Parts, water: Water) 
         yield ("water", "depth"), f"nothing, and {called} have their anchors there", "a depth, m", cure
         return
     bed = -water.depth if water.depth is not None else None
-    for begin, end in _known_ends(line, parts, water):
+    known = _known_ends(line, parts, water)
+    if line.pretension is not None and not known:
+        found = f"{line.pretension:g} N of {called}, whose ends are not known before all is built"
+        allowed = "pretension of lines between places and netting"
+        yield (*path, "pretension"), found, allowed, "give length instead"
+    for begin, end in known:
         for key, place in (("from", begin), ("to", end)):
             if bed is not None and place[2] < bed and isinstance(line, LineSpec):
                 cure = "raise it, or check [water] depth"
@@ -242,10 +249,9 @@ def _known_ends(line: LaidSpec, parts: Parts, water: Water) -> list[tuple[Place,
         return []
     x, y = net.positions[np.unique(rim), :2].mean(axis=0).tolist()
     anchors = line.anchors((x, y), water.depth or 0.0)
-    try:
-        knots = around(rim, net.positions, line.bearing, line.count)
-    except ValueError:
-        return []
+    if line.count > len(np.unique(rim)):
+        return []  # told already
+    knots = around(rim, net.positions, line.bearing, line.count)
     return [(np.array(a), net.positions[k]) for a, k in zip(anchors, knots, strict=True)]
 
 

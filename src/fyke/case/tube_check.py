@@ -14,6 +14,7 @@ from .written import written
 if TYPE_CHECKING:
     from .check import Finding, Parts
 
+_EXPLICIT = ("verner", "symplectic")
 _OF_ITS_OWN = ("diameter", "centre", "knots")  # keys of a ring that follows no edge
 
 
@@ -26,6 +27,12 @@ def tube_findings(parts: Parts) -> Iterator[Finding]:
             found = f"{tube.wall * 1e3:g} mm in a tube of {tube.diameter * 1e3:g} mm"
             allowed = f"less than half the diameter, {tube.diameter * 500.0:g} mm"
             yield ("tube", name, "wall"), found, allowed, "check the units of wall and diameter"
+    solve = parts.raw.get("solve")
+    stepper = solve.get("stepper") if isinstance(solve, dict) else None
+    if parts.tubulars and stepper in _EXPLICIT:
+        found = f'"{stepper}" with rings or collars, which explicit steps do not know'
+        allowed = '"auto", "implicit" or "newmark" with tubes'
+        yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
 
 
 def _material(path: Path, keys: dict[str, Any], parts: Parts) -> Iterator[Finding]:

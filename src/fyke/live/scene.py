@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ..report.carried import carried
 from ..report.colours import GREY, PALETTE, linear
+from ..report.ground import SAND, bed_under
 from ..report.parts import Bars, Knots, Outline, coloured_bars, parts_of
 from ..report.quantities import BarQuantity, quantities
 from ..report.space import AZIMUTH, ELEVATION
@@ -51,7 +52,27 @@ class Scene:
         low, high = net.positions.min(axis=0), net.positions.max(axis=0)
         self._size = float(np.linalg.norm(high - low)) or 1.0
         self._look_at((low + high) / 2.0)
+        self._ground(low, high)
         self.draw()
+
+    def _ground(self, low: Array, high: Array) -> None:
+        """Show the sea bed under a net between two corners (3,) m, where there is one that it comes down to."""
+        level = bed_under(self.study.result)
+        if level is None:
+            return
+        x, y = ((low + high) / 2.0)[:2].tolist()
+        sand = tuple(_bytes(rgb(SAND)).tolist())
+        self.client.scene.add_grid(
+            "/sea bed",
+            2.0 * self._size,
+            2.0 * self._size,
+            cell_size=self._size / 20.0,
+            section_size=self._size / 4.0,
+            plane_color=sand,
+            plane_opacity=1.0,
+            fade_distance=10.0 * self._size,
+            position=(x, y, level),
+        )
 
     def _look_at(self, middle: Array) -> None:
         azimuth, elevation = np.deg2rad([AZIMUTH, ELEVATION])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Literal, cast
 
 import numpy as np
@@ -71,7 +72,7 @@ class Panel:
             return Hexagon(self.long_bar / self.bar_length, self.turned)
         return "square" if self.mesh == "square" else "diamond"
 
-    @property
+    @cached_property
     def lattice(self) -> Lattice:
         """The lattice of the meshes."""
         return lattice(self.kind, self.meshes, self.taper)

@@ -31,6 +31,7 @@ def knot_at(net: Net, text: str) -> int | None:
         knots, place = row_of(net, name), round(int(edge[3]) / real_step(net, name))
     elif row:
         knots, place = next((rope.knots for rope in net.ropes if rope.name == row[1]), None), int(row[2])
+        place = round(place / _step_of(net, knots)) if knots is not None else place
     else:
         return knot_labelled(net, text)
     return int(knots[place]) if knots is not None and place < len(knots) else None
@@ -95,6 +96,15 @@ def edges_of(panel: Panel) -> tuple[str, ...]:
     return ("top", "bottom", *corners) if panel.closed else ("top", "bottom", "left", "right", *corners)
 
 
+def _step_of(net: Net, knots: Indices) -> float:
+    """For how many real meshes one stands along a row of knots, where that is an edge of grouped netting."""
+    for panel in net.panels:
+        for side in edges_of(panel) if panel.grouped_from else ():
+            if np.array_equal(panel.edge(cast("Side | Corner", side)), knots):
+                return real_step(net, f"{panel.name}.{side}")
+    return 1.0
+
+
 def real_step(net: Net, text: str) -> float:
     """Return for how many real meshes along it one mesh stands of an edge of netting, 1 for ropes and lines."""
     name, _, side = text.rpartition(".")
@@ -117,14 +127,17 @@ def around(knots: Indices, positions: NDArray[np.float64], bearing: float, count
     """Choose knots of a rim that lie in evenly spread directions from its middle.
 
     knots: (k,) of a rim; positions: (n, 3) m; bearing: of the first direction (rad), from +x turning to +y; count: how
-    many directions. ValueError where two of them find the same knot.
+    many directions. No knot is chosen twice. ValueError for more directions than knots.
     """
     rim = np.unique(knots)
     out = positions[rim, :2] - positions[rim, :2].mean(axis=0)
     angle = np.arctan2(out[:, 1], out[:, 0])
     wanted = bearing + 2.0 * np.pi * np.arange(count) / count
     off = np.abs(np.exp(1j * angle)[None, :] - np.exp(1j * wanted)[:, None])
-    chosen = rim[np.argmin(off, axis=1)]
-    if len(np.unique(chosen)) < count:
+    if count > len(rim):
         raise ValueError(f"{count} lines around a rim of {len(rim)} knots")
-    return np.asarray(chosen)
+    chosen = []
+    for way in off:
+        chosen.append(int(np.argmin(way)))
+        off[:, chosen[-1]] = np.inf
+    return np.asarray(rim[chosen])

@@ -254,6 +254,10 @@ class Stage:
             width = part.width * float(np.clip(thick, THINNEST * scale, THICKEST * scale))
             width = max(width, part.diameter / self.metres)
             options: dict[str, Any] = {"line_width": width, "lighting": False}
+            if part.diameter:
+                # Thick lines leave gaps where they turn.
+                mesh.verts = _vertices(np.unique(net.bars[part.bars]))
+                options |= {"point_size": width, "render_points_as_spheres": True}
             if part.colour is None:
                 mesh.cell_data["colour"] = np.zeros((len(part.bars), 3), dtype=np.uint8)
                 self._plotter.add_mesh(mesh, scalars="colour", rgb=True, **options)

@@ -222,8 +222,8 @@ def _plan_of(net: Net, panel: Panel, *, title: bool) -> _Plan:
 def _laid_flat(net: Net, panel: Panel) -> Array:
     """Where the lattice knots lie on the netting laid flat (k, 2) m, every row as wide as it was built."""
     grid, points = panel.lattice, panel.flat
-    if panel.folds:
-        return points  # every other row cuts the corners of a box short, which is no narrower netting
+    if panel.folds or panel.cuts:
+        return points  # rows that cut the corners of a box short, or end at a cut, are no narrower netting
     order = np.lexsort((grid.knots[:, 0], grid.knots[:, 1]))
     j, across = grid.knots[order, 1], points[order, 0]
     step = np.linalg.norm(np.diff(net.positions[panel.knots[order]], axis=0), axis=1)

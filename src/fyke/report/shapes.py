@@ -29,6 +29,7 @@ from .bars import (
     thickness,
 )
 from .carried import brought_back, carried
+from .ground import bed_under, draw_ground
 from .parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
 from .plane import size_of
 from .space import View, box, draw_space, far_to_near, seen_extent
@@ -151,7 +152,12 @@ def _corners(result: Result) -> Array:
 def _in_space(ax: Axes, result: Result, *, above: float, below: float) -> View:
     """Draw the box of a net into axes, with room above and below it (in)."""
     width, height = np.maximum(size_of(ax) - [LEFT + RIGHT, above + below], LEAST).tolist()
-    return draw_space(ax, _corners(result), (LEFT, below, width, height))
+    corners = _corners(result)
+    view = draw_space(ax, corners, (LEFT, below, width, height))
+    bed = bed_under(result)
+    if bed is not None:
+        draw_ground(ax, view, corners, bed)
+    return view
 
 
 def _legend(net: Net, other: str, width: float) -> float:

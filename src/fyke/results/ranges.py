@@ -162,7 +162,9 @@ def _solidity(faces: Faces, position: Array) -> Array:
     """Return the solidity of netting as it is stretched, (p,), with its knots at positions (n, 3) m."""
     area = np.linalg.norm(faces.vector_area(position), axis=1)
     solid = faces.solidity * faces.area
-    return np.asarray(solid / np.maximum(area, solid))
+    # Faces without area, in the tip of a cone, are no netting.
+    stretched = np.maximum(area, solid)
+    return np.asarray(np.divide(solid, stretched, out=np.zeros_like(solid), where=solid > 0.0))
 
 
 def _reach(system: System, states: Sequence[Moment]) -> Watch:

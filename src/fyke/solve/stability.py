@@ -7,6 +7,8 @@ the eigenvector of the lowest, and relaxes in time from there (solve.relaxation)
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
@@ -43,6 +45,10 @@ def unstable_direction(system: System, position: Array) -> Array | None:
     """
     if not system.elements.two_way.any():
         return None
+    if system.bed is not None:
+        # Friction makes nothing fall, but its share in the stiffness goes with the load on the ground, which is no
+        # potential's: its symmetric part alone would have negative eigenvalues.
+        system = replace(system, bed=replace(system.bed, friction=0.0))
     _, pattern, data, _ = stiffness_of(system, position)
     begin, stride = pattern.diagonal[pattern.free].T
     own = begin + np.arange(3)[:, None] * (stride + 1)

@@ -306,12 +306,13 @@ def _laws(net: Net) -> tuple[Array, NDArray[np.int32], NDArray[np.int32], Array]
 
     One law for every twine and every number of bars side by side, whose tensions add up.
     """
-    kinds, which = np.unique(
-        np.column_stack([net.twine_of_bar, net.bar_multiple]), axis=0, return_inverse=True
-    )
-    which = which.ravel()
+    multiples, place = np.unique(net.bar_multiple, return_inverse=True)
+    code = net.twine_of_bar * len(multiples) + place
+    there = np.bincount(code, minlength=len(net.twines) * len(multiples)) > 0
+    which = (np.cumsum(there) - 1)[code]
     own = [t.law.rows(t.diameter) for t in net.twines]
-    tables = [own[int(twine)] * np.array([1.0, many, many, many, 1.0]) for twine, many in kinds]
+    kinds = [(k // len(multiples), multiples[k % len(multiples)]) for k in np.flatnonzero(there).tolist()]
+    tables = [own[twine] * np.array([1.0, many, many, many, 1.0]) for twine, many in kinds]
     end = np.cumsum([len(t) for t in tables], dtype=np.int64)
     first = end - [len(t) for t in tables]
     secant = np.array([_tension(t, REFERENCE_STRAIN) / REFERENCE_STRAIN for t in tables])
