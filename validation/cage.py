@@ -17,11 +17,11 @@ def drags(text):
     case = fyke.parse_case(text)
     net = fyke.build_net(case)
     out = {}
-    for spec, _, one in load_cases_of(case):
+    for _, name, one in load_cases_of(case):
         result = fyke.solve_static(fyke.build_system(net, one))
         if not result.outcome.ok:
-            raise RuntimeError(f"{spec.name} m/s: {result.outcome.message}")
-        out[spec.name] = result.hydrodynamic_force[-1][0]
+            raise RuntimeError(f"{name} m/s: {result.outcome.message}")
+        out[name] = result.hydrodynamic_force[-1][0]
     return out
 
 

@@ -1,4 +1,4 @@
-"""A mooring line that lies in part on the ground, still water, no friction, in MoorDyn and in fyke, with the same bars."""
+"""A mooring line that lies in part on the ground, in still water without friction, in MoorDyn and in fyke."""
 
 from __future__ import annotations
 

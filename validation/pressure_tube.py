@@ -72,4 +72,4 @@ def measure(tables):
         yield Found("tension", tension[middle].mean(), row["tension"], case)
         yield Found("radius", np.hypot(*x[np.unique(net.bars[middle]), :2].T).mean(), row["radius"], case)
         yield Found("bar", np.linalg.norm(d, axis=1)[middle].mean(), row["bar"], case)
-        yield Found("axial", -result.support_reaction[-1][2], -row["axial"], case)
+        yield Found("axial", -result.support_reaction[-1][2], row["axial"], case)

@@ -131,8 +131,9 @@ def _by_key(figures: dict[str, Any], key: str) -> Any:
 
 
 def last_lines(error: BaseException) -> str:
-    """Say in a line what was raised and where."""
+    """Say in a line what was raised and where, in code that is not of another package."""
     lines = "".join(traceback.format_exception_only(error)).strip().splitlines()
-    place = traceback.extract_tb(error.__traceback__)
-    where = f" ({Path(place[-1].filename).name}, line {place[-1].lineno})" if place else ""
+    places = traceback.extract_tb(error.__traceback__)
+    near = [one for one in places if "site-packages" not in one.filename] or places
+    where = f" ({Path(near[-1].filename).name}, line {near[-1].lineno})" if near else ""
     return " ".join(lines[-TOLD:]) + where

@@ -8,7 +8,14 @@ from .words import number
 
 LINE_COLUMNS = (
     *("Line", "Length (m)", "From: tension (N)", "level, up (N)", "above level (°)"),
-    *("To: tension (N)", "level, up (N)", "above level (°)", "Largest in the run (N)", "Of strength", "On the bed (m)"),
+    *(
+        "To: tension (N)",
+        "level, up (N)",
+        "above level (°)",
+        "Largest in the run (N)",
+        "Of strength",
+        "On the bed (m)",
+    ),
 )
 
 
