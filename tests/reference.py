@@ -8,14 +8,14 @@ from pathlib import Path
 from fyke.study.claims import Row, read_claim
 from lines import NO_FORCES, NO_WATER, thread
 
-__all__ = ["NO_FORCES", "NO_WATER", "grouped", "panel_case", "rows_of_claim", "table", "thread"]
+__all__ = ["NO_FORCES", "NO_WATER", "VALIDATION", "grouped", "panel_case", "rows_of_claim", "table", "thread"]
 
 VALIDATION = Path(__file__).parents[1] / "validation"
 
 
 def table(name: str) -> list[Row]:
-    """Rows of tests/data/NAME.csv, numbers as numbers; an empty cell stays an empty text."""
-    text = (Path(__file__).parent / "data" / f"{name}.csv").read_text(encoding="utf-8")
+    """Rows of validation/data/NAME.csv, numbers as numbers; an empty cell stays an empty text."""
+    text = (VALIDATION / "data" / f"{name}.csv").read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     return [{key: _number(cell) for key, cell in row.items()} for row in csv.DictReader(lines)]
 
