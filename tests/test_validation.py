@@ -328,3 +328,21 @@ def test_json_of_the_command(folder):
         ("one and one", None, "fails"),
         ("one and one", 2.0, "holds"),
     ]
+
+
+@pytest.mark.parametrize("width", [1280, 390], ids=["desktop", "phone"])
+def test_the_page_fits_the_window_with_every_claim_open(folder, browser, width):
+    drawn = SUM + (
+        "\n\ndef picture(found):\n    from matplotlib.figure import Figure\n\n    return Figure(figsize=(7, 3))\n"
+    )
+    long = claim_of({"sum.py": "drawn.py", "one and one": "a quantity of many words " * 8})
+    root = folder(drawn_toml=long, drawn_py=drawn, bad_toml=claim_of({"reference = 2.0": "reference = 3.0"}))
+    assert run(root, "-j", 1)[0] == 1
+    page = browser.new_page(viewport={"width": width, "height": 800})
+    page.goto((root / "report.html").as_uri())
+    # A claim of which a row fails is open, the others are closed.
+    assert page.locator("details[open]").count() == 1 and page.locator("details").count() == 3
+    page.evaluate("document.querySelectorAll('details').forEach(one => one.open = true)")
+    assert page.evaluate("document.documentElement.scrollWidth") <= width
+    assert page.locator("details img").count() == 1
+    page.close()
