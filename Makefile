@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-peers bench bench-gear bench-million bench-peers bench-see bench-water gallery format clean
+.PHONY: demo test validate test-peers bench bench-gear bench-million bench-peers bench-see bench-water gallery format clean
 
 demo: $(VENV)/.installed
 	@echo "== running examples/panel.toml (the first run compiles, about 20 s)"
@@ -15,6 +15,9 @@ test: $(VENV)/.installed-test
 	@echo "== types" && $(BIN)/mypy
 	@echo "== import layers" && $(BIN)/lint-imports
 	@echo "== tests" && $(BIN)/python -m pytest
+
+validate: $(VENV)/.installed-test
+	@$(BIN)/fyke validate
 
 test-peers: $(VENV)/.installed-peers
 	@$(BIN)/python -m pytest -m peers -rs

@@ -5,22 +5,17 @@ from __future__ import annotations
 import csv
 from pathlib import Path
 
-import numpy as np
+from fyke.study.claims import Row, read_claim
+from lines import NO_FORCES, NO_WATER, thread
 
-import fyke
+__all__ = ["NO_FORCES", "NO_WATER", "VALIDATION", "grouped", "panel_case", "rows_of_claim", "table", "thread"]
 
-# Neither water nor gravity, and forces of the water switched off: what is left is dead load and elasticity.
-NO_WATER = fyke.Water(density=0.0, gravity=0.0)
-NO_FORCES = fyke.Coefficients(
-    bars=fyke.ConstantBar(0.0, 0.0), knots=fyke.ConstantKnot(0.0), added_mass_bar=0.0, added_mass_knot=0.0
-)
-
-Row = dict[str, str | float]
+VALIDATION = Path(__file__).parents[1] / "validation"
 
 
 def table(name: str) -> list[Row]:
-    """Rows of tests/data/NAME.csv, numbers as numbers; an empty cell stays an empty text."""
-    text = (Path(__file__).parent / "data" / f"{name}.csv").read_text(encoding="utf-8")
+    """Rows of validation/data/NAME.csv, numbers as numbers; an empty cell stays an empty text."""
+    text = (VALIDATION / "data" / f"{name}.csv").read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
     return [{key: _number(cell) for key, cell in row.items()} for row in csv.DictReader(lines)]
 
@@ -40,9 +35,9 @@ def _number(cell: str) -> str | float:
         return cell
 
 
-def thread(ea: float, diameter: float = 1e-3, density: float = 1000.0) -> fyke.Twine:
-    """Twine of tensile stiffness EA (N)."""
-    return fyke.Twine("thread", density, diameter, fyke.LinearLaw(ea / (np.pi / 4.0 * diameter**2)))
+def rows_of_claim(name: str, table: str) -> list[Row]:
+    """Rows of a table of validation/NAME.toml, by the names of its columns without their units."""
+    return read_claim(VALIDATION / f"{name}.toml").tables()[table]
 
 
 def panel_case(meshes: int, side: float, *, title: str = "", knots: str = "", more: str = "") -> str:

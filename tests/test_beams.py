@@ -11,64 +11,18 @@ from scipy.special import ellipe, ellipk
 
 import fyke
 import fyke.solve.modes
+from beams import LENGTH, STIFFNESS, cantilever, in_vacuum, shape, tube
 from fyke.forces.bending import Bending
 from fyke.netting.lines import LinePiece, with_line
 from fyke.netting.rigging import with_rope
 from fyke.netting.shapes import frustum
 from fyke.netting.sheet import Netting
-from fyke.netting.together import together
 from fyke.netting.tubes import Tube, ring
 from fyke.results.audit import audit
 from fyke.results.derive import summary
 from fyke.solve.equilibrium import Equilibrium
 from fyke.solve.pattern import Pattern
 from fyke.solve.relaxation import relax
-from reference import NO_FORCES, NO_WATER
-
-STIFFNESS, LENGTH, MASS = 3.0, 2.0, 0.7  # N m2, m, kg/m of all beams here
-DIAMETER = 0.02
-
-
-def tube(axial=1e7, mass=MASS):
-    """A tube of bending stiffness STIFFNESS and axial stiffness (N)."""
-    area = np.pi / 4.0 * DIAMETER**2
-    return fyke.Twine(
-        "tube",
-        mass / area,
-        DIAMETER,
-        fyke.LinearLaw(axial / area),
-        compression=True,
-        bending_stiffness=STIFFNESS,
-    )
-
-
-def in_vacuum(net):
-    return fyke.make_system(net, water=NO_WATER, coefficients=NO_FORCES)
-
-
-def cantilever(n, direction=(1.0, 0.0, 0.0), load=(0.0, 0.0, 0.0), kind=None):
-    """A beam of n bars whose clamped end is one bar more, between two held knots."""
-    h = LENGTH / n
-    points = np.arange(-1, n + 1)[:, None] * h * np.array(direction)
-    loads = np.zeros((n + 2, 3))
-    loads[-1] = load
-    bare = fyke.line(kind or tube(), points, h, fixed=(0, 1), load=loads)
-    bare = replace(
-        bare, bars=bare.bars[:0], rest_length=bare.rest_length[:0], twine_of_bar=bare.twine_of_bar[:0]
-    )
-    return in_vacuum(with_rope(bare, np.arange(n + 2), kind or tube(), name="beam"))
-
-
-def shape(system, tolerance=1e-8, **options):
-    result = fyke.solve_static(system, tolerance=tolerance, **options)
-    assert result.outcome.ok, result.outcome
-    return result.position[-1]
-
-
-def order(errors):
-    """Order of convergence from the errors of meshes each twice as fine as the last."""
-    return np.log2(np.array(errors[:-1]) / np.array(errors[1:]))
-
 
 # Bending of three knots.
 
@@ -137,29 +91,6 @@ def test_half_of_each_bar_bends():
 # Statics.
 
 
-def test_tip_of_a_cantilever_goes_down_by_p_l3_over_3_ei():
-    exact, errors = 1e-3 * LENGTH**3 / (3.0 * STIFFNESS), []
-    for n in (5, 10, 20, 40):
-        down = -shape(cantilever(n, load=(0.0, 0.0, -1e-3)))[-1, 2]
-        errors.append(abs(down / exact - 1.0))
-    assert errors[-1] < 5e-4
-    assert order(errors) == pytest.approx([2.0, 2.0, 2.0], abs=0.05)
-
-
-@pytest.mark.parametrize(
-    ("load", "down", "forward"), [(1.0, 0.30172, 0.05643), (2.0, 0.49346, 0.16064), (10.0, 0.81061, 0.55500)]
-)
-def test_large_deflection_of_a_cantilever(load, down, forward):
-    """K.E. Bisshopp & D.C. Drucker, Large deflection of cantilever beams, Q. Appl. Math. 3, 272-275, 1945.
-
-    Tip of a beam under a dead load P, P L^2/EI as given, by elliptic integrals as other tables repeat them.
-    """
-    force = load * STIFFNESS / LENGTH**2
-    ends = [shape(cantilever(n, load=(0.0, 0.0, -force)))[-1] / LENGTH for n in (30, 60)]
-    found = ends[1] + (ends[1] - ends[0]) / 3.0
-    assert [-found[2], 1.0 - found[0]] == pytest.approx([down, forward], abs=2e-5)
-
-
 def test_a_strut_bears_less_than_its_buckling_load_straight():
     load = 0.9 * np.pi**2 * STIFFNESS / (4.0 * LENGTH**2)
     result = fyke.solve_static(cantilever(20, (0.0, 0.0, 1.0), (0.0, 0.0, -load)), tolerance=1e-9)
@@ -167,53 +98,6 @@ def test_a_strut_bears_less_than_its_buckling_load_straight():
     assert result.position[-1][:, :2] == pytest.approx(np.zeros((22, 2)), abs=1e-12)
     assert result.frame().tension[1:] == pytest.approx(np.full(20, -load), abs=1e-7)
     assert result.frame().support_reaction == pytest.approx([0.0, 0.0, -load], abs=1e-7)
-
-
-@pytest.mark.parametrize("angle", [60.0, 90.0])
-def test_a_strut_over_its_buckling_load_bows_out_as_the_elastica(angle):
-    """With k = sin(alpha/2), alpha the slope of the tip: L sqrt(P/EI) = K(k), x = 2 E/K - 1, y = 2 k/K over L."""
-    k = np.sin(np.radians(angle) / 2.0)
-    whole, second = ellipk(k * k), ellipe(k * k)
-    load = STIFFNESS * (whole / LENGTH) ** 2
-    ends = []
-    for n in (40, 80):
-        system = cantilever(n, (0.0, 0.0, 1.0), (0.0, 0.0, -load))
-        start = system.at_rest()
-        # An arc of the same length that turns by alpha.
-        along = np.maximum(start.position[:, 2], 0.0)
-        turn = np.radians(angle) * along / LENGTH
-        start.position[:, 0] = LENGTH / np.radians(angle) * (1.0 - np.cos(turn))
-        start.position[2:, 2] = LENGTH / np.radians(angle) * np.sin(turn[2:])
-        ends.append(np.abs(shape(system, start=start)[-1]) / LENGTH)
-    found = ends[1] + (ends[1] - ends[0]) / 3.0
-    assert found == pytest.approx([2.0 * k / whole, 0.0, 2.0 * second / whole - 1.0], abs=1e-4)
-
-
-def hoop(n, radius, pull, stretch):
-    """A ring in the plane x-z, held in its lowest knot, pulled up by a force and sideways apart by another (N)."""
-    net = ring(tube(axial=1e7), diameter=2.0 * radius, knots=n)
-    x = net.positions
-    x = np.column_stack([x[:, 0], np.zeros(n), x[:, 1]])
-    load, fixed = np.zeros((n, 3)), np.zeros(n, dtype=bool)
-    load[n // 4, 2], load[0, 0], load[n // 2, 0] = pull, stretch, -stretch
-    fixed[3 * n // 4] = True
-    return in_vacuum(replace(net, positions=x, load=load, fixed=fixed))
-
-
-def test_a_ring_pulled_at_opposite_points():
-    """By the theory of thin rings, diameters change by (pi/4 - 2/pi) and -(2/pi - 1/2) times P R^3/EI."""
-    radius, along, across = 1.5, np.pi / 4.0 - 2.0 / np.pi, 2.0 / np.pi - 0.5
-    unit = 1e-4 * STIFFNESS / radius**2
-    errors = []
-    for n in (24, 48, 96):
-        system = hoop(n, radius, 2.0 * unit, unit)
-        x = shape(system, tolerance=1e-9)
-        change = x - system.net.positions
-        high, wide = change[n // 4, 2] - change[3 * n // 4, 2], change[0, 0] - change[n // 2, 0]
-        exact = 1e-4 * radius * np.array([2.0 * along - across, along - 2.0 * across])
-        errors.append(np.abs(np.array([high, wide]) / exact - 1.0))
-    assert errors[-1] == pytest.approx([0.0, 0.0], abs=5e-3)
-    assert np.log2(np.array(errors[0]) / errors[1]) == pytest.approx([2.0, 2.0], abs=0.3)
 
 
 def test_a_strut_between_strings_pushes_them_apart():
@@ -258,32 +142,6 @@ def test_net_with_tubes_is_refused_by_explicit_steppers():
 # Vibration.
 
 
-def test_natural_frequencies_of_a_cantilever():
-    """omega = (1.87510, 4.69409)^2 / L^2 sqrt(EI/m), each twice: up and sideways."""
-    roots, unit, errors = np.array([1.8751041, 4.6940911]), np.sqrt(STIFFNESS / MASS) / LENGTH**2, []
-    for n in (8, 16, 32):
-        system = cantilever(n)
-        found = fyke.modes(system, system.net.positions, count=4).frequency
-        assert found[::2] == pytest.approx(found[1::2], rel=1e-6)
-        errors.append(np.abs(found[::2] / (roots**2 * unit) - 1.0))
-    assert errors[-1] == pytest.approx([0.0, 0.0], abs=5e-3)
-    assert np.log2(errors[0] / errors[2]) / 2.0 == pytest.approx([2.0, 2.0], abs=0.2)
-
-
-def test_a_strut_at_its_buckling_load_has_no_stiffness_left():
-    """The square of the lowest frequency falls with the load and vanishes at pi^2 EI/(4 L^2)."""
-    critical, errors = np.pi**2 * STIFFNESS / (4.0 * LENGTH**2), []
-    for n in (8, 16, 32):
-        squares = []
-        for part in (0.98, 0.99):
-            system = cantilever(n, (0.0, 0.0, 1.0), (0.0, 0.0, -part * critical))
-            result = fyke.solve_static(system, tolerance=1e-9)
-            squares.append(fyke.modes(system, result.position[-1], count=1).frequency[0] ** 2)
-        errors.append(abs(0.99 + 0.01 * squares[1] / (squares[0] - squares[1]) - 1.0))
-    assert errors[-1] < 1e-3
-    assert order(errors) == pytest.approx([2.0, 2.0], abs=0.2)
-
-
 @pytest.mark.parametrize("dense", [0, 10**6])
 def test_modes_say_that_a_strut_beyond_its_buckling_load_does_not_stay(dense, monkeypatch):
     monkeypatch.setattr(fyke.solve.modes, "DENSE", dense)
@@ -308,35 +166,6 @@ def test_statics_leaves_a_strut_that_is_straight_beyond_its_buckling_load():
     assert tip[2] == pytest.approx(2.0 * ellipe(k2) / ellipk(k2) - 1.0, abs=2e-3)
     below = fyke.solve_static(cantilever(40, (0.0, 0.0, 1.0), (0.0, 0.0, -0.97 * critical)), tolerance=1e-8)
     assert "not stable" not in below.outcome.message and below.outcome.warnings == ()
-
-
-def test_a_ring_swings_in_its_plane():
-    """Slowest inextensible mode, two waves around: omega^2 = 36/5 EI/(m R^4), J.W.S. Rayleigh, Theory of Sound, 233."""
-    radius, errors = 0.8, []
-    for n in (16, 32):
-        net = ring(tube(), diameter=2.0 * radius, knots=n)
-        soft = fyke.Twine("soft", 1e-3, 1e-3, fyke.LinearLaw(1e-5 / (np.pi / 4.0 * 1e-6)))
-        places = [
-            [2.0 * radius * np.cos(a), 2.0 * radius * np.sin(a), 0.0] for a in np.pi / 2.0 * np.arange(4)
-        ]
-        anchors = fyke.line(soft, places, 1.0, fixed=(0, 1, 2, 3))
-        anchors = replace(
-            anchors,
-            bars=anchors.bars[:0],
-            rest_length=anchors.rest_length[:0],
-            twine_of_bar=anchors.twine_of_bar[:0],
-        )
-        held = together([net, anchors])
-        for k in range(4):
-            held = with_rope(held, [k * n // 4, n + k], soft, length=0.5 * radius, name=f"t{k}")
-        modes = fyke.modes(in_vacuum(held), held.positions, count=14)
-        level = np.einsum("kiq,kiq->k", modes.shape[:, :, :2], modes.shape[:, :, :2])
-        flat = level > 0.99 * np.einsum("kiq,kiq->k", modes.shape, modes.shape)
-        unit = np.sqrt(STIFFNESS / MASS) / radius**2
-        found = modes.frequency[flat & (modes.frequency > 0.5 * unit)][:2] / unit
-        errors.append(np.abs(found / np.sqrt(36.0 / 5.0) - 1.0).max())
-    assert errors[-1] < 0.015
-    assert order(errors) == pytest.approx([2.0], abs=0.2)
 
 
 @pytest.mark.parametrize("stepper", [fyke.Implicit(rtol=0.0, atol=2e-8), fyke.Newmark(rtol=0.0, atol=2e-8)])

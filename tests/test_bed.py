@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.optimize import fsolve
 
 import fyke
 from fyke.forces.bed import OnBed, footprint
@@ -14,16 +13,8 @@ from fyke.netting.rigging import Sphere, with_bodies
 from fyke.results.audit import audit
 from fyke.water.bed import CREEP, SOFT, Bed
 from fyke.water.waves import airy
+from mooring import CHAIN, WATER, mooring, weight_of
 from reference import NO_FORCES, thread
-
-WATER = fyke.Water(density=1025.0, gravity=9.81)
-CHAIN = fyke.chain(0.022)
-# As heavy as this chain, and soft enough for what lies to slip by much more than the ground gives.
-SOFT_CHAIN = replace(CHAIN, law=thread(4e5, CHAIN.diameter).law)
-
-
-def weight_of(twine):
-    return WATER.gravity * (twine.density - WATER.density) * twine.area
 
 
 @pytest.mark.parametrize("statics", [True, False])
@@ -80,53 +71,6 @@ def test_bodies_stand_on_the_ground_by_their_radius():
     sink = np.sqrt(2.0 * soft * -system.elements.weight[1, 2] / (3.0e6 * area))
     assert sink < soft
     assert result.position[-1, 1, 2] == pytest.approx(-9.9 - sink, abs=1e-9)
-
-
-def mooring(segments, twine, friction, span, *, length=120.0, depth=20.0):
-    """A line from an anchor on the ground to a fairlead at the surface."""
-    pieces = [fyke.LinePiece(twine, length, segments)]
-    net = fyke.with_line(
-        None, (0.0, 0.0, -depth), (span, 0.0, 0.0), pieces, name="m", bed=-depth, water=1025.0
-    )
-    bed = Bed(depth, stiffness=3e9, friction=friction)
-    system = fyke.make_system(net, water=WATER, coefficients=NO_FORCES, bed=bed)
-    result = fyke.solve_static(system, tolerance=1e-6)
-    assert result.outcome.ok, result.outcome
-    return system, result
-
-
-def touching_catenary(span, twine, friction, length=120.0, depth=20.0):
-    """Tension H, V at the fairlead of an elastic line that lies in part and rubs: J. Jonkman's form, as in MoorPy."""
-    w, ea = weight_of(twine), twine.law.rows(twine.diameter)[0, 2]
-
-    def gap(f):
-        h, v = f
-        lying = length - v / w
-        x = lying + h / w * np.arcsinh(v / h) + h * length / ea
-        if friction:
-            free = lying - h / (friction * w)
-            x += friction * w / (2.0 * ea) * (-(lying**2) + free * max(free, 0.0))
-        return [x - span, h / w * (np.sqrt(1.0 + (v / h) ** 2) - 1.0) + v**2 / (2.0 * ea * w) - depth]
-
-    h, v = fsolve(gap, [w * depth, 2.0 * w * depth], xtol=1e-12)
-    return h, v, max(h - friction * w * (length - v / w), 0.0)
-
-
-@pytest.mark.parametrize(
-    ("twine", "friction", "span"), [(CHAIN, 0.0, 113.0), (SOFT_CHAIN, 0.6, 113.0), (SOFT_CHAIN, 0.6, 118.0)]
-)
-def test_a_mooring_line_that_lies_in_part_is_the_touching_catenary(twine, friction, span):
-    """Pull at the fairlead and at the anchor, with and without friction; the shorter the bars, the nearer."""
-    h, v, anchor = touching_catenary(span, twine, friction)
-    wrong = []
-    for segments in (60, 240):
-        _, result = mooring(segments, twine, friction, span)
-        t, x = result.tension[-1], result.position[-1]
-        half = 0.5 * weight_of(twine) * 120.0 / segments
-        along = (x[-1] - x[-2]) / np.linalg.norm(x[-1] - x[-2])
-        wrong.append([t[-1] * along[0] / h - 1.0, (t[-1] * along[2] + half) / v - 1.0, (t[0] - anchor) / h])
-    assert np.abs(wrong[-1]).max() < 0.01
-    assert np.abs(wrong[-1]).max() < np.abs(wrong[0]).max()
 
 
 def test_what_lies_is_borne_and_all_forces_balance():

@@ -9,7 +9,6 @@ import pytest
 
 import fyke
 from fyke.forces.bars import assemble, bar_geometry
-from fyke.forces.drag import bar_water_tangents
 from fyke.forces.evaluate import evaluate
 from fyke.forces.inertia import invert_masses, largest_frequency, mass_matrices
 from fyke.forces.tension import law_tension
@@ -28,31 +27,6 @@ def shaken(system, seed=0, size=3e-3):
     rng = np.random.default_rng(seed)
     x = system.net.positions + rng.normal(scale=size, size=system.net.positions.shape)
     return x, rng.normal(scale=0.3, size=x.shape)
-
-
-def complex_water(d, w, cn, ct):
-    """Force of one end as the formula says it, for complex numbers: no absolute values of vectors."""
-    length = np.sqrt(d @ d)
-    t = d / length
-    s = w @ t
-    n = w - s * t
-    size = s if s.real > 0 else -s
-    return length * (cn * np.sqrt(n @ n) * n + ct * size * s * t)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_drag_tangent_against_complex_step(seed):
-    rng = np.random.default_rng(seed)
-    d, w = rng.normal(size=3), rng.normal(size=3)
-    cn, ct = rng.uniform(0.1, 2.0, size=2)
-    turn, press = np.empty((3, 3)), np.empty((3, 3))
-    length = np.linalg.norm(d)
-    bar_water_tangents(w, d / length, (cn, ct, 0.0, 0.0, 0.0, 0.0), length, turn, press)
-    step = 1e-30
-    by_place = [complex_water(d + 1j * step * e, w, cn, ct).imag / step for e in np.eye(3)]
-    by_speed = [complex_water(d, w + 1j * step * e, cn, ct).imag / step for e in np.eye(3)]
-    assert np.abs(turn - np.column_stack(by_place)).max() < 1e-13
-    assert np.abs(press - np.column_stack(by_speed)).max() < 1e-13
 
 
 def test_assembled_tangent_against_differences(framed):

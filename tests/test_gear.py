@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
@@ -93,60 +90,6 @@ def test_a_cylinder_turned_by_a_mesh_hangs_the_same():
     back = shapes[1] @ turn.T
     for place in back:
         assert np.linalg.norm(shapes[0] - place, axis=1).min() < 1e-6
-
-
-def mid_side(segments):
-    """Knots on the mid-sides of 8 x 8 square cells: the panel of other programs, its bars in segments."""
-    n, p = 8, 0.9 * 0.03 * np.sqrt(2.0)
-    twine = fyke.Twine("n", 1140.0, 1.5e-3, fyke.LinearLaw(1e9))
-    i, j = (axis.ravel() for axis in np.meshgrid(np.arange(2 * n + 1), np.arange(2 * n + 1), indexing="ij"))
-    there = (i + j) % 2 == 1
-    i, j = i[there], j[there]
-    index = np.full((2 * n + 1, 2 * n + 1), -1)
-    index[i, j] = np.arange(len(i))
-    ends = [
-        (index[a, b], index[a + 1, b + up])
-        for a, b in zip(i, j, strict=True)
-        for up in (1, -1)
-        if a < 2 * n and 0 <= b + up <= 2 * n
-    ]
-    places = np.column_stack([np.zeros(len(i)), 0.5 * p * i, 0.5 * p * j - 10.0])
-    held = (i % (2 * n) == 0) | (j % (2 * n) == 0)
-    positions, bars, count = [*places], [], len(i)
-    for a, b in ends:
-        chain = [a]
-        for k in range(1, segments):
-            positions.append(places[a] + (places[b] - places[a]) * k / segments)
-            chain.append(count)
-            count += 1
-        chain.append(b)
-        bars += list(pairwise(chain))
-    inner = count - len(i)
-    line = fyke.line(twine, [[0, 0, 0], [0, 0, -1.0]], 1.0)
-    return replace(
-        line,
-        positions=np.array(positions),
-        labels=tuple(map(str, range(count))),
-        fixed=np.concatenate([held, np.zeros(inner, dtype=bool)]),
-        bars=np.array(bars),
-        rest_length=np.full(len(bars), 0.03 / segments),
-        twine_of_bar=np.zeros(len(bars), dtype=np.int64),
-        knot_diameter=np.concatenate([np.full(len(i), 3.5e-3), np.zeros(inner)]),
-        knot_density=np.full(count, 1140.0),
-        load=np.zeros((count, 3)),
-    ), np.flatnonzero((np.abs(i - n) + np.abs(j - n)) == 1)
-
-
-@pytest.mark.parametrize(
-    ("segments", "sag", "tension"), [(1, 0.09050, 0.0763), (2, 0.08863, 0.0760), (8, 0.08829, 0.0758)]
-)
-def test_bars_in_segments_bow(segments, sag, tension):
-    """Sag of the middle mesh and largest tension as a scratch program of others found them."""
-    net, middle = mid_side(segments)
-    result = fyke.solve_static(fyke.make_system(net, current=(0.5, 0.0, 0.0)))
-    assert result.outcome.ok
-    assert result.position[-1][middle, 0].mean() == pytest.approx(sag, abs=1e-5)
-    assert result.tension.max() == pytest.approx(tension, abs=5e-5)
 
 
 def test_a_panel_cuts_its_bars_itself(nylon):

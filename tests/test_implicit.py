@@ -77,23 +77,6 @@ def test_second_order_on_a_panel_that_stays_taut(framed):
 
 
 @pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
-def test_second_order_on_a_sinking_sphere(stepper):
-    """Against v = v_t tanh(t / tau), z = v_t tau ln cosh(t / tau)."""
-    twine = fyke.Twine("none", 1000.0, 1e-6, fyke.LinearLaw(1e3))
-    net = fyke.line(twine, [[0, 0, 0]], [], fixed=(), knot_diameter=0.01, knot_density=1140.0)
-    system = fyke.make_system(net, coefficients=fyke.Coefficients(knots=fyke.ConstantKnot(0.47)))
-    speed = np.sqrt(4 / 3 * 0.14 * 9.81 * 0.01 / 0.47)
-    tau = speed * (1.14 + 0.5) / (0.14 * 9.81)
-    errors = []
-    for n in (20, 40, 80):
-        run = fyke.simulate(
-            system, duration=2 * tau, stepper=replace(stepper, max_step=tau / n, fixed=True, rtol=1e-8)
-        )
-        errors.append(abs(run.position[-1, 0, 2] + speed * tau * np.log(np.cosh(2.0))))
-    assert slopes(errors) == pytest.approx(2.0, abs=0.1)
-
-
-@pytest.mark.parametrize("stepper", STEPPERS, ids=lambda s: s.name)
 def test_energy_of_a_taut_bar_in_vacuum(stepper):
     """A mass on two taut bars: Newmark keeps the energy, BDF2 loses some in every period."""
     twine = fyke.Twine("spring", 1e-9, 1e-3, fyke.LinearLaw(1e6))

@@ -10,66 +10,9 @@ from fyke.netting.measures import measure_net, measure_panel, solidity
 from fyke.netting.net import Net
 from fyke.netting.panel import panel
 from fyke.netting.twine import Twine
+from netting_measures import hung
 
 BAR = 0.03
-
-
-def hung(mesh: str, ratio: float, diameter: float, knot_diameter: float, meshes: int = 2) -> Net:
-    """Return taut netting: diamonds at E1 = ratio, squares at E1 = E2 = 1."""
-    e1, e2 = (ratio, np.sqrt(1.0 - ratio**2)) if mesh == "diamond" else (1.0, 1.0)
-    full = meshes * BAR * (2 if mesh == "diamond" else 1)
-    return panel(
-        Twine("main", 1140.0, diameter, LinearLaw(1e9)),
-        mesh=mesh,
-        meshes=(meshes, meshes),
-        bar_length=BAR,
-        size=(full * e1, full * e2),
-        knot_diameter=knot_diameter,
-    )
-
-
-def covered(net: Net, cell: tuple[float, float], pixels: int = 400) -> float:
-    """Count the pixels of one cell in the middle of a panel that its bars and knots cover.
-
-    Every pixel is looked at in a random place within it, for edges that run along the pixels.
-    """
-    rng = np.random.default_rng(0)
-    plan = net.panels[0].flat
-    corners = np.stack(np.meshgrid(np.arange(pixels), np.arange(pixels), indexing="ij"), axis=-1).reshape(
-        -1, 2
-    )
-    points = (corners + rng.uniform(size=corners.shape)) / pixels * cell
-    solid = np.zeros(len(points), dtype=bool)
-    for a, b in net.bars:
-        along = plan[b] - plan[a]
-        t = np.clip((points - plan[a]) @ along / (along @ along), 0.0, 1.0)
-        solid |= np.linalg.norm(points - plan[a] - t[:, None] * along, axis=1) < net.bar_diameter[0] / 2.0
-    for centre in plan:
-        solid |= np.linalg.norm(points - centre, axis=1) < net.knot_diameter[0] / 2.0
-    return float(solid.mean())
-
-
-@pytest.mark.parametrize("knot_diameter", [0.0, 0.0035, 0.006])
-@pytest.mark.parametrize("ratio", [0.4, 0.6, 0.7071, 0.85])
-def test_solidity_of_diamonds_is_that_of_a_pixel_count(ratio, knot_diameter):
-    net = hung("diamond", ratio, 0.0015, knot_diameter)
-    cell = (2.0 * BAR * ratio, 2.0 * BAR * np.sqrt(1.0 - ratio**2))
-    measured = measure_panel(net, net.panels[0]).solidity
-    assert measured == pytest.approx(covered(net, cell), rel=0.02)
-
-
-@pytest.mark.parametrize("knot_diameter", [0.0, 0.004, 0.006])
-@pytest.mark.parametrize("diameter", [0.0015, 0.003])
-def test_solidity_of_squares_is_that_of_a_pixel_count(diameter, knot_diameter):
-    net = hung("square", 1.0, diameter, knot_diameter)
-    measured = measure_panel(net, net.panels[0]).solidity
-    # Discs and strips differ by the slivers beside a knot, so a knot that hardly sticks out is the worst.
-    assert measured == pytest.approx(covered(net, (BAR, BAR)), rel=0.02)
-
-
-def test_solidity_of_square_mesh_is_the_closed_form():
-    ratio = 0.0015 / BAR
-    assert solidity("square", BAR, (1.0, 1.0), 0.0015) == pytest.approx(2.0 * ratio - ratio**2, rel=1e-14)
 
 
 def test_solidity_of_square_mesh_on_its_point_is_that_of_square_mesh():
@@ -112,23 +55,6 @@ def test_the_figures_of_the_example_panel_are_those_by_hand():
     # Rtex / (a E1 E2) for the twine, and a nylon ball of 3.5 mm, 25.59218 mg, for every two bars.
     twine = 2014.546e-6 / (0.03 * (0.3055 / 0.48) ** 2)
     assert figures.mass_per_area == pytest.approx(twine + 128 * 25.59218e-6 / 0.09333025, rel=1e-6)
-
-
-def test_the_mass_of_a_net_is_that_by_hand():
-    net = panel(
-        Twine("main", 1140.0, 0.0015, LinearLaw(1e9)),
-        mesh="diamond",
-        meshes=(8, 8),
-        bar_length=0.03,
-        size=(0.3055, 0.3055),
-        knot_diameter=0.0035,
-        knot_density=2000.0,
-    )
-    figures = measure_net(net)
-    assert (figures.knots, figures.bars, figures.fixed) == (145, 256, 32)
-    twine_volume, knots_volume = 7.68 * 1.7671459e-6, 145 * 22.449298e-9
-    assert figures.volume == pytest.approx(twine_volume + knots_volume, rel=1e-6)
-    assert figures.mass == pytest.approx(1140.0 * twine_volume + 2000.0 * knots_volume, rel=1e-6)
 
 
 def test_each_panel_of_a_net_is_measured_with_its_own_twine_and_knots():

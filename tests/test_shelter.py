@@ -24,6 +24,7 @@ from fyke.system.build import make_system
 from fyke.system.system import State
 from fyke.water.laws import measured
 from fyke.water.wakes import ChengTwines, ChengWake, GivenWake, LolandWake, MomentumWake
+from reference import VALIDATION
 
 Array = NDArray[np.float64]
 TWINE = Twine("main", density=1140.0, diameter=8e-3, law=LinearLaw(1e9))
@@ -433,7 +434,7 @@ def test_the_tables_of_the_page_are_as_worked_out_here():
     angle, drag = table[:, 0], table[:, 1]
     bars, r = ACROSS + level(angle), ChengTwines().factor(angle, 0.2)
     with_it = bars * r**2
-    wake = np.loadtxt(Path(__file__).parent / "data" / "panel_wake.csv", delimiter=",", skiprows=5)[:, 1]
+    wake = np.loadtxt(VALIDATION / "data" / "panel_wake.csv", delimiter=",", skiprows=5)[:, 1]
 
     def error(found):
         return 100.0 * (found / drag - 1.0)

@@ -7,12 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.optimize import brentq
 
 import fyke
-from fyke.forces.wetness import wet_bar, wet_knot
+from fyke.forces.wetness import wet_bar
 from fyke.solve.equilibrium import Equilibrium
-from fyke.water.current import UniformCurrent
 from fyke.water.laws.bars import ChooCasarella
 from fyke.water.laws.knots import CliftGauvin
 from fyke.water.laws.panels import Loland
@@ -54,46 +52,6 @@ def segment(s: float) -> float:
     return (angle - np.sin(angle)) / (2.0 * np.pi)
 
 
-# By hand
-
-
-@pytest.mark.parametrize(("above", "wet"), [(0.3, 0.7), (0.5, 0.5), (-0.2, 1.0), (1.5, 0.0)])
-def test_a_hanging_bar_weighs_less_by_the_water_its_wet_part_displaces(above, wet):
-    rope = fyke.line(twine(1300.0), [[0, 0, above], [0, 0, above - 1.0]], 1.0, fixed=(0,))
-    result = fyke.solve_static(fyke.make_system(rope, surface=True))
-    volume = np.pi / 4.0 * 0.02**2
-    assert result.outcome.ok
-    # The bar stretches by some micrometres.
-    assert result.support_reaction[-1, 2] == pytest.approx(-G * volume * (1300.0 - wet * RHO), rel=1e-5)
-
-
-@pytest.mark.parametrize("density", [250.0, 500.0, 900.0])
-def test_a_floating_rope_dives_by_its_density(density):
-    """The segment of a level bar's round that is under water is density / 1000 of it; current holds it taut."""
-    result = fyke.solve_static(fyke.make_system(floating(density), current=(0.0, 0.3, 0.0), surface=True))
-    assert result.outcome.ok and result.outcome.iterations <= 10
-    middle = result.position[-1][15:26, 2]
-    deep = brentq(lambda s: segment(s) - density / RHO, -1.0, 1.0, xtol=1e-14)
-    assert middle == pytest.approx(-0.01 * deep, abs=1e-7)
-
-
-def test_a_floating_ball_dives_by_the_cap_it_needs():
-    """A ball of 0.7 of the water's density on a thread: cap of height h in h^2 (3 R - h) / (4 R^3) = 0.7."""
-    chain = fyke.line(
-        fyke.Twine("thin", RHO, 1e-5, fyke.LinearLaw(1e9)),
-        [[0, 0, -1.0], [0, 0, 0.3]],
-        2.0,
-        fixed=(0,),
-        knot_diameter=[0.0, 0.2],
-        knot_density=[RHO, 0.7 * RHO],
-    )
-    result = fyke.solve_static(fyke.make_system(chain, surface=True))
-    height = result.position[-1][1, 2]
-    under = 0.1 - height
-    assert result.outcome.ok
-    assert under**2 * (0.3 - under) / (4.0 * 0.1**3) == pytest.approx(0.7, abs=1e-6)
-
-
 def test_the_wet_part_of_a_bar_is_the_mean_of_segments_along_it():
     rng = np.random.default_rng(2)
     for a, b in rng.uniform(-0.03, 0.03, (20, 2)):
@@ -128,19 +86,6 @@ def test_slopes_of_the_wet_part_by_complex_step():
     assert np.pi * radius**2 * (by_a + by_b) == pytest.approx(2.0 * radius, rel=1e-14)
 
 
-def test_wet_parts_have_the_slopes_of_differences():
-    rng = np.random.default_rng(1)
-    for a, b in [*rng.uniform(-0.03, 0.03, (40, 2)), (0.004, 0.004), (0.2, -0.3)]:
-        _, by_a, by_b = wet_bar(a, b, 0.01)
-        step = 1e-7
-        want = (wet_bar(a + step, b, 0.01)[0] - wet_bar(a - step, b, 0.01)[0]) / (2 * step)
-        assert by_a == pytest.approx(want, abs=1e-4)
-        want = (wet_bar(a, b + step, 0.01)[0] - wet_bar(a, b - step, 0.01)[0]) / (2 * step)
-        assert by_b == pytest.approx(want, abs=1e-4)
-        want = (wet_knot(a + step, 0.02)[0] - wet_knot(a - step, 0.02)[0]) / (2 * step)
-        assert wet_knot(a, 0.02)[1] == pytest.approx(want, abs=1e-4)
-
-
 # Tangents
 
 
@@ -149,34 +94,6 @@ LAWS = {
     "by speed": {"bars": ChooCasarella(), "knots": CliftGauvin()},
     "screens": {"screens": Loland()},
 }
-
-
-@pytest.mark.parametrize("laws", LAWS.values(), ids=LAWS)
-@pytest.mark.parametrize(
-    "current", [SHEAR, UniformCurrent((0.5, 0.2, 0.1)), PowerCurrent((0.7, 0, 0), 3.0, 0.3)]
-)
-@pytest.mark.parametrize("centre", [-1.3, 0.004])
-def test_the_tangent_of_the_load_against_differences(laws, current, centre):
-    """Every column, of a bellied panel in the water and of one that stands half out of it."""
-    net = curtain(centre=centre, meshes=(2, 3), size=(0.25, 0.36))
-    system = fyke.make_system(net, current=current, coefficients=fyke.Coefficients(**laws), surface=True)
-    x = net.positions + 0.02 * np.random.default_rng(4).normal(size=net.positions.shape)
-    s = Equilibrium(system, fyke.State(0.0, x, np.zeros_like(x)), None)
-    s.b.block[:] = 0.0
-    s.assemble()
-    found = s.pattern.matrix(s.b.data).toarray()
-    free, begin, step = s.pattern.free, s.x.copy(), 1e-7
-    want = np.empty_like(found)
-    for j, knot in enumerate(free):
-        for q in range(3):
-            loads = []
-            for way in (step, -step):
-                moved = begin.copy()
-                moved[knot, q] += way
-                s.begin_at(moved)
-                loads.append(s.b.load[free].copy())
-            want[:, 3 * j + q] = -((loads[0] - loads[1]) / (2 * step)).ravel()
-    assert found == pytest.approx(want, abs=2e-5 * np.abs(want).max())
 
 
 @pytest.mark.parametrize("laws", LAWS.values(), ids=LAWS)

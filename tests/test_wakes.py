@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,9 +12,9 @@ from hypothesis import strategies as st
 from fyke.water.laws.law import PanelLaw
 from fyke.water.laws.panels import Aarsnes, KristiansenFaltinsen
 from fyke.water.wakes import TWINES, WAKES, ChengTwines, ChengWake, GivenWake, LolandWake, MomentumWake
+from reference import VALIDATION
 
-DATA = Path(__file__).parent / "data"
-MEASURED = np.loadtxt(DATA / "panel_wake.csv", delimiter=",", skiprows=5)
+MEASURED = np.loadtxt(VALIDATION / "data" / "panel_wake.csv", delimiter=",", skiprows=5)
 LAWS = {name: law() for name, law in WAKES.items()}
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,10 +25,8 @@ from fyke.water.waves import (
 )
 from fyke.water.waves.kernel import cosine_and_sine, power_of_two
 
-DATA = Path(__file__).parent / "data"
 G = 9.81
 SPREAD = Spreading(exponent=10.0, directions=15)
-AIRY = np.genfromtxt(DATA / "airy_waves.csv", delimiter=",", names=True, comments="#", skip_header=1)
 
 
 def at(sea, x, time=0.0):
@@ -59,21 +56,6 @@ def test_wavenumber_solves_the_dispersion_relation_at_any_depth():
     assert k[0] * depth < 2e-4 and k[-1] * depth > 1e5
     assert wavenumber(omega, math.inf, G) == pytest.approx(omega**2 / G, rel=1e-15)
     assert 2.0 * math.pi / wavenumber(2.0 * math.pi / 10.0, 60.0, G) == pytest.approx(153.826, abs=5e-4)
-
-
-@pytest.mark.parametrize("row", AIRY, ids=str)
-def test_airy_waves_are_those_of_the_table(row):
-    sea = airy(row["H_m"], row["T_s"], depth=row["h_m"], stretching="none")
-    k = wavenumber(2.0 * math.pi / row["T_s"], row["h_m"], G)
-    assert k == pytest.approx(row["k_1_m"], rel=1e-9)
-    assert 2.0 * math.pi / k == pytest.approx(row["wavelength_m"], rel=1e-9)
-    place = [0.0, 0.0, row["z_m"]]
-    assert at(sea, place)[0][0] == pytest.approx(row["u_amp_m_s"], rel=1e-6)
-    velocity, acceleration, _ = at(
-        sea, place, -row["T_s"] / 6.0
-    )  # theta = 60 deg: the surface is above z = 0
-    assert velocity[2] / math.sin(math.pi / 3.0) == pytest.approx(row["w_amp_m_s"], rel=1e-6)
-    assert acceleration[0] / math.sin(math.pi / 3.0) == pytest.approx(row["ax_amp_m_s2"], rel=1e-6)
 
 
 # The kernel

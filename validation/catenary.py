@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from lines import NO_FORCES, NO_WATER, thread, towards
 
 import fyke
 from fyke.study import Found
+from lines import NO_FORCES, NO_WATER, thread, towards
 
 
 def hung(row, bars):

@@ -190,7 +190,10 @@ def validate(
     fast: Annotated[bool, typer.Option("--fast", help="Leave out the claims that take long.")] = False,
     jobs: Annotated[int, typer.Option("-j", "--jobs", metavar="N", min=1, help="Claims at a time.")] = 2,
     write: Annotated[
-        bool, typer.Option("--write/--no-write", help="Write REPORT.md and report.html into FOLDER.")
+        bool,
+        typer.Option(
+            "--write/--no-write", help="Write report.html, and REPORT.md of the whole set, into FOLDER."
+        ),
     ] = True,
     every: Annotated[
         bool, typer.Option("--all", help="Print every row, not the worst of those alike.")

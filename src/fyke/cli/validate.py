@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
+from math import isfinite
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.text import Text
@@ -14,7 +16,7 @@ from ..case.keys import nearest
 from ..report.verdicts import write_page
 from ..results.whole import replacing
 from ..study.claims import LEVELS, claims_in
-from ..study.text import markdown, summary_line, table_cells
+from ..study.text import alike, levels_of, markdown, summary_line, worst_of
 from ..study.validate import Judged, Report, validate
 from ..version import __version__
 from .progress import progress_bar
@@ -42,7 +44,7 @@ class Wishes:
 
 
 def validate_folder(folder: Path, wishes: Wishes) -> int:
-    """Run the claims of a folder, write REPORT.md and report.html there and return the exit code."""
+    """Run the claims of a folder, write what was found there and return the exit code."""
     try:
         files = _chosen(claims_in(folder), wishes.only)
     except CaseError as error:
@@ -53,14 +55,23 @@ def validate_folder(folder: Path, wishes: Wishes) -> int:
             files,
             fast=wishes.fast,
             jobs=wishes.jobs,
+            draw=wishes.write and not wishes.only,
             on_progress=lambda done, of, name: show(done / of, name),
         )
     written = _write(folder, report, wishes) if wishes.write and not wishes.only else []
     if wishes.json:
-        print_json({"ok": report.ok, "rows": [asdict(row) for row in report.rows], "seconds": report.seconds})
+        print_json({"ok": report.ok, "rows": [_plain(row) for row in report.rows], "seconds": report.seconds})
     else:
         _show(stdout(), report, written, every=wishes.every)
     return DONE if report.ok else NOT_CONVERGED
+
+
+def _plain(row: Judged) -> dict[str, Any]:
+    """A row for JSON, which has no numbers that are none."""
+    return {
+        name: None if isinstance(value, float) and not isfinite(value) else value
+        for name, value in asdict(row).items()
+    }
 
 
 def _chosen(files: list[Path], only: tuple[str, ...]) -> list[Path]:
@@ -77,11 +88,14 @@ def _chosen(files: list[Path], only: tuple[str, ...]) -> list[Path]:
 
 
 def _write(folder: Path, report: Report, wishes: Wishes) -> list[Path]:
+    """Write the page, and REPORT.md where the whole set was run."""
     command = "fyke validate --fast" if wishes.fast else "fyke validate"
     text, page = folder / "REPORT.md", folder / "report.html"
+    write_page(page, levels_of(report), title=summary_line(report), command=command)
+    if wishes.fast:
+        return [page]
     with replacing(text) as part:
         part.write_text(markdown(report, version=__version__, command=command), encoding="utf-8")
-    write_page(page, table_cells(report), title=summary_line(report), command=command)
     return [text, page]
 
 
@@ -91,8 +105,8 @@ def _show(console: Console, report: Report, written: list[Path], *, every: bool)
         if rows:
             console.print(Text(title, style="bold"))
             console.print(Text(_line(("ours", "reference", "off", "allowed")), style="dim"))
-            for alike in [[row] for row in rows] if every else _alike(rows):
-                _show_rows(console, alike)
+            for some in [[row] for row in rows] if every else alike(rows):
+                _show_rows(console, some)
     console.print(Text(f"\n{summary_line(report)}."))
     slowest = max(report.seconds, key=lambda name: report.seconds[name], default="")
     if slowest:
@@ -103,19 +117,10 @@ def _show(console: Console, report: Report, written: list[Path], *, every: bool)
         console.print(Text(f"wrote {path}", style="dim"), soft_wrap=True)
 
 
-def _alike(rows: list[Judged]) -> list[list[Judged]]:
-    """Rows of one quantity of one claim together, the furthest off first; rows that fail stay alone."""
-    together: dict[tuple[str, str, str], list[Judged]] = {}
-    for row in rows:
-        alone = row.case if row.verdict == "fails" else ""
-        together.setdefault((row.claim, row.quantity, alone), []).append(row)
-    return [sorted(some, key=lambda row: -abs(row.difference or 0.0)) for some in together.values()]
-
-
 def _show_rows(console: Console, rows: list[Judged]) -> None:
     """Print the first of rows that are alike."""
     row = rows[0]
-    where = f"worst of {len(rows)}: {row.case}" if len(rows) > 1 and row.difference is not None else row.case
+    where = worst_of(rows)
     what = f"{row.claim}, {row.quantity}{f' ({row.unit})' if row.unit else ''}{f', {where}' if where else ''}"
     console.print(Text(f"  {what}", overflow="ellipsis", no_wrap=True))
     percent = 100.0 if row.relative else 1.0

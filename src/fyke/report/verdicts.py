@@ -20,22 +20,21 @@ from ..version import __version__
 from .figures import OPTIONS
 from .style import BLUE, DOUBLE_COLUMN, GREEN, ORANGE, VERMILION, styled
 
-Levels = Sequence[tuple[str, Sequence[Mapping[str, Any]]]]
+# Title and claims of each level, see study.text.levels_of.
+Levels = Sequence[Mapping[str, Any]]
 
-HEAD = ("case", "quantity", "ours", "reference", "difference", "tolerance", "verdict")
+HEAD = ("quantity", "case", "ours", "reference", "difference", "tolerance", "verdict")
 # Below this part of the tolerance a row is as good as exact, and drawn there.
 LEAST_MISS = 1e-6
 COLOURS = (BLUE, GREEN, ORANGE, VERMILION)
 
 
-def write_page(
-    path: Path, levels: Levels, *, title: str, command: str, pictures: Mapping[str, bytes] | None = None
-) -> None:
-    """Write the page to a file that appears whole or not at all; pictures: PNG by name of the claim."""
-    drawn = {"All rows": _png(misses(levels))} | dict(pictures or {})
+def write_page(path: Path, levels: Levels, *, title: str, command: str) -> None:
+    """Write the page to a file that appears whole or not at all."""
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
+    environment.filters["base64"] = lambda picture: base64.b64encode(picture).decode("ascii")
     page = files(__package__)
     html = environment.from_string(page.joinpath("verdicts.html").read_text(encoding="utf-8")).render(
         title=title,
@@ -44,7 +43,7 @@ def write_page(
         today=date.today().isoformat(),
         head=HEAD,
         levels=levels,
-        pictures={name: base64.b64encode(picture).decode("ascii") for name, picture in drawn.items()},
+        all_rows=as_png(misses(levels)),
         style=Markup(page.joinpath("page", "report.css").read_text(encoding="utf-8")),
     )
     with replacing(path) as part:
@@ -56,7 +55,8 @@ def misses(levels: Levels) -> Figure:
     """Draw the difference of every judged row over its tolerance, a row of dots for each level."""
     figure = Figure(figsize=(DOUBLE_COLUMN, 0.5 + 0.28 * max(len(levels), 1)), layout="constrained")
     axes = figure.add_subplot()
-    for place, (_, rows) in enumerate(levels):
+    for place, level in enumerate(levels):
+        rows = [row for claim in level["claims"] for row in claim["rows"]]
         found = np.array([row["miss"] for row in rows if row["miss"] is not None])
         spread = 0.25 * np.sin(2.4 * np.arange(len(found)))  # so that dots on one place are seen
         axes.plot(
@@ -70,14 +70,15 @@ def misses(levels: Levels) -> Figure:
     axes.axvline(1.0, color="black", linewidth=0.8)
     axes.set_xscale("log")
     axes.set_xlim(0.5 * LEAST_MISS, 10.0)
-    axes.set_yticks(range(len(levels)), [name for name, _ in levels])
+    axes.set_yticks(range(len(levels)), [level["title"] for level in levels])
     axes.invert_yaxis()
     axes.set_xlabel("difference over tolerance; right of the line a row fails")
     return figure
 
 
 @styled
-def _png(figure: Figure) -> bytes:
+def as_png(figure: Figure) -> bytes:
+    """Picture of a figure, as bytes of PNG."""
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", **OPTIONS["png"])
     return buffer.getvalue()

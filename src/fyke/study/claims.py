@@ -1,8 +1,8 @@
 """Claims: what fyke says it can do, each with what it is compared with, how closely it must agree, and why.
 
 A claim is a TOML file of a folder; what it measures is a case file, whose summary is asked by key, or a script beside
-it with a function measure(tables) that yields Found. Tables are CSV files with the unit of a column at the end of its
-name.
+it with a function measure(tables) that yields Found, and picture(found) where there is something to draw; or nothing,
+where all its rows are missing. Tables are CSV files with the unit of a column at the end of its name.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import csv
 import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import isfinite, nan
 from pathlib import Path
 from typing import Any, Literal
 
@@ -33,9 +33,11 @@ LEVELS: dict[Level, str] = {
 FOUND, MISSING, NONE = "found", "missing", "none"
 WORDS = (FOUND, MISSING, NONE)
 
-_KEYS = {"title", "level", "source", "fast", "script", "case", "data", "row"}
+_KEYS = {"title", "level", "source", "fast", "script", "case", "needs", "data", "row"}
 _NEEDED = ("title", "level", "source", "row")
-_ROW_KEYS = {"quantity", "key", "unit", "reference", "tolerance", "relative", "reason"}
+_ROW_KEYS = {"quantity", "key", "unit", "reference", "tolerance", "relative", "side", "reason"}
+# Which side of the reference a value may be on, and how far beyond it is in the tolerance.
+SIDES = ("both", "above", "below")
 _TABLE_KEYS = {"file", "columns"}
 
 Row = dict[str, float | str]
@@ -54,7 +56,7 @@ class Found:
 
 @dataclass(frozen=True)
 class RowSpec:
-    """One quantity of a claim: reference a number or one of WORDS; tolerance absolute, or over the reference."""
+    """One quantity of a claim: reference a number or one of WORDS; tolerance absolute, or over the reference; side."""
 
     quantity: str
     key: str
@@ -63,11 +65,15 @@ class RowSpec:
     tolerance: float | None
     relative: bool
     reason: str
+    side: str = "both"
 
 
 @dataclass(frozen=True)
 class TableSpec:
-    """A CSV file and the unit of each column that is used; "text" for one that is no number."""
+    """A CSV file and the unit of each column that is used: "text" for one that is no number, "1" for one without unit.
+
+    A cell of a unit that ends in "?" may be empty, which reads as nan.
+    """
 
     file: str
     columns: dict[str, str]
@@ -75,7 +81,11 @@ class TableSpec:
 
 @dataclass(frozen=True)
 class Claim:
-    """One file of claims; fast: cheap enough for a run at every change; exactly one of script and case is given."""
+    """One file of claims.
+
+    fast: cheap enough for a run at every change; script, case: what is measured, one of them, or neither where every
+    row is missing; needs: names of packages without which its rows are missing.
+    """
 
     file: Path
     title: str
@@ -85,6 +95,7 @@ class Claim:
     fast: bool = True
     script: str | None = None
     case: str | None = None
+    needs: tuple[str, ...] = ()
     data: tuple[tuple[str, TableSpec], ...] = ()
 
     @property
@@ -122,7 +133,9 @@ def read_claim(file: Path) -> Claim:
         raw = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise CaseError([Problem(str(file), str(error), "a claim in TOML", "correct the file")]) from None
-    problems: list[Problem] = [*_unknown(str(file), raw, _KEYS)]
+    problems: list[Problem] = [*_unknown(str(file), raw, _KEYS), *_ill_formed(str(file), raw)]
+    if problems:
+        raise CaseError(problems)
     for key in _NEEDED:
         if not raw.get(key):
             problems.append(
@@ -135,11 +148,12 @@ def read_claim(file: Path) -> Claim:
                 f"{file}, level", repr(raw["level"]), ", ".join(LEVELS), f"write {near or 'one of these'}"
             )
         )
-    if ("script" in raw) == ("case" in raw):
-        found = "both" if "script" in raw else "neither"
-        problems.append(Problem(str(file), f"{found} of script and case", "one of them", "give one"))
     rows, data = raw.get("row", []), raw.get("data", {})
     specs = [_row(f"{file}, row {number}", one, problems) for number, one in enumerate(rows, 1)]
+    nothing = all(spec and spec.reference == MISSING for spec in specs)
+    if ("script" in raw and "case" in raw) or not ("script" in raw or "case" in raw or nothing):
+        found = "both" if "script" in raw else "neither"
+        problems.append(Problem(str(file), f"{found} of script and case", "one of them", "give one"))
     for name, one in data.items():
         problems += _unknown(f"{file}, data.{name}", one, _TABLE_KEYS)
         if not ("file" in one and "columns" in one):
@@ -155,7 +169,41 @@ def read_claim(file: Path) -> Claim:
         fast=bool(raw.get("fast", True)),
         script=raw.get("script"),
         case=raw.get("case"),
+        needs=tuple(raw.get("needs", ())),
         data=tuple((name, TableSpec(one["file"], one["columns"])) for name, one in data.items()),
+    )
+
+
+def _ill_formed(where: str, raw: dict[str, Any]) -> list[Problem]:
+    """Keys whose values are of no use as what they are."""
+    words = {"title", "level", "source", "script", "case"}
+    shapes = {
+        "a text": [key for key in words if not isinstance(raw.get(key, ""), str)],
+        "true or false": [key for key in ("fast",) if not isinstance(raw.get(key, True), bool)],
+        "a list of texts": [key for key in ("needs",) if not _is_list(raw.get(key, []), str)],
+        "tables, [[row]]": [key for key in ("row",) if not _is_list(raw.get(key, []), dict)],
+        "tables with file and columns, [data.NAME]": [
+            key for key in ("data",) if not _are_tables(raw.get(key, {}))
+        ],
+    }
+    return [
+        Problem(f"{where}, {key}", repr(raw[key])[:60], allowed, f"write {allowed}")
+        for allowed, keys in shapes.items()
+        for key in sorted(keys)
+    ]
+
+
+def _is_list(value: Any, of: type) -> bool:
+    return isinstance(value, list) and all(isinstance(one, of) for one in value)
+
+
+def _are_tables(value: Any) -> bool:
+    return isinstance(value, dict) and all(
+        isinstance(one, dict)
+        and isinstance(one.get("file", ""), str)
+        and isinstance(one.get("columns", {}), dict)
+        and all(isinstance(unit, str) for unit in one.get("columns", {}).values())
+        for one in value.values()
     )
 
 
@@ -175,11 +223,14 @@ def _row(where: str, raw: dict[str, Any], problems: list[Problem]) -> RowSpec | 
         if not isinstance(raw.get(key), str):
             wrong.append(Problem(f"{where}, {key}", repr(raw.get(key)), "a text", f"give {key}"))
     reference = raw.get("reference", FOUND)
-    if isinstance(reference, str) and reference not in WORDS:
+    is_number = isinstance(reference, int | float) and isfinite(reference)
+    if not is_number and reference not in WORDS:
         wrong.append(
             Problem(f"{where}, reference", repr(reference), f"a number or {', '.join(WORDS)}", "give one")
         )
-    judged = reference not in {MISSING, NONE}
+    if str(raw.get("side", "both")) not in SIDES:
+        wrong.append(Problem(f"{where}, side", repr(raw["side"]), ", ".join(SIDES), "write one of these"))
+    judged = reference not in (MISSING, NONE)
     given = [key for key in ("tolerance", "relative") if key in raw]
     if judged and len(given) != 1:
         found = "both tolerance and relative" if given else "no tolerance"
@@ -205,6 +256,7 @@ def _row(where: str, raw: dict[str, Any], problems: list[Problem]) -> RowSpec | 
         tolerance=float(raw[given[0]]) if given else None,
         relative="relative" in raw,
         reason=raw["reason"],
+        side=raw.get("side", "both"),
     )
 
 
@@ -218,9 +270,9 @@ def _table(file: Path, spec: TableSpec) -> list[Row]:
     there = list(rows[0]) if rows else []
     problems, columns = [], {}
     for name, unit in spec.columns.items():
-        plain = unit in {"text", "1"}
-        wanted = name if plain else f"{name}_{unit.replace('/', '_')}"
-        same = [wanted, wanted if plain else f"{name}_{unit.replace('/', '_per_')}"]
+        plain, own = unit in {"text", "1", "1?"}, unit.rstrip("?")
+        wanted = name if plain else f"{name}_{own.replace('/', '_')}"
+        same = [wanted, wanted if plain else f"{name}_{own.replace('/', '_per_')}"]
         if any(one in there for one in same):
             columns[name] = next(one for one in same if one in there)
             continue
@@ -241,6 +293,8 @@ def _table(file: Path, spec: TableSpec) -> list[Row]:
 def _value(file: Path, number: int, text: str | None, unit: str) -> float | str:
     if unit == "text":
         return text or ""
+    if unit.endswith("?") and not text:
+        return nan
     try:
         return float(text or "")
     except ValueError:

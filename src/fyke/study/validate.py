@@ -2,30 +2,21 @@
 
 from __future__ import annotations
 
-import importlib.util
-import sys
 import time
-import traceback
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures import Future, ProcessPoolExecutor
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from math import isfinite
 from multiprocessing import get_context
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
-from ..case import load_case
 from ..case.errors import CaseError
-from ..results import flow_direction, part_figures, summary
-from ..solve.run import solve_case
-from ..system.build import build_net, build_system
 from .claims import MISSING, NONE, Claim, Found, Level, RowSpec, read_claim
+from .measure import Measured, last_lines, measure, picture_of
 
 Verdict = Literal["holds", "fails", "missing", "shown"]
 Progress = Callable[[int, int, str], None]
-# Lines of a fault that are told.
-TOLD = 3
 
 
 @dataclass(frozen=True)
@@ -49,6 +40,7 @@ class Judged:
     verdict: Verdict
     reason: str
     source: str
+    side: str = "both"
 
     @property
     def difference(self) -> float | None:
@@ -60,11 +52,21 @@ class Judged:
 
 
 @dataclass(frozen=True)
+class Judgement:
+    """Rows of one claim, the seconds that it took, and its picture (PNG) where it has one and it was asked for."""
+
+    rows: tuple[Judged, ...]
+    seconds: float
+    picture: bytes | None = None
+
+
+@dataclass(frozen=True)
 class Report:
-    """All rows, and the seconds that each claim took."""
+    """All rows, the seconds that each claim took, and the pictures (PNG) of claims."""
 
     rows: tuple[Judged, ...]
     seconds: dict[str, float]
+    pictures: dict[str, bytes]
 
     @property
     def ok(self) -> bool:
@@ -77,34 +79,49 @@ class Report:
 
 
 def validate(
-    files: Sequence[Path], *, fast: bool = False, jobs: int = 1, on_progress: Progress | None = None
+    files: Sequence[Path],
+    *,
+    fast: bool = False,
+    jobs: int = 1,
+    draw: bool = False,
+    on_progress: Progress | None = None,
 ) -> Report:
-    """Run claims, given by their files; fast: leave out those that take long; jobs: so many at a time.
+    """Run claims, given by their files.
 
-    A claim that cannot be read, measured or brought to convergence is a row that fails.
+    fast: leave out those that take long; jobs: so many at a time; draw: draw their pictures too. A claim that cannot be
+    read, measured or brought to convergence is a row that fails.
     """
     wanted = [file for file in files if not fast or _is_fast(file)]
-    rows: list[tuple[Judged, ...]] = []
-    seconds: dict[str, float] = {}
-    done = _in_processes(wanted, jobs) if jobs > 1 else ((file, *judge(file)) for file in wanted)
-    for number, (file, judged, took) in enumerate(done, 1):
-        rows.append(judged)
-        seconds[file.stem] = took
+    found: dict[Path, Judgement] = {}
+    for file, judgement in _in_processes(wanted, jobs, draw) if jobs > 1 else _here(wanted, draw):
+        found[file] = judgement
         if on_progress is not None:
-            on_progress(number, len(wanted), file.stem)
-    return Report(tuple(row for some in rows for row in some), seconds)
+            on_progress(len(found), len(wanted), file.stem)
+    ordered = [found[file] for file in wanted]
+    return Report(
+        rows=tuple(row for judgement in ordered for row in judgement.rows),
+        seconds={file.stem: found[file].seconds for file in wanted},
+        pictures={file.stem: picture for file in wanted if (picture := found[file].picture)},
+    )
 
 
-def judge(file: Path) -> tuple[tuple[Judged, ...], float]:
-    """Run one claim; return its rows and the seconds it took."""
+def judge(file: Path, *, draw: bool = False) -> Judgement:
+    """Run one claim."""
     began = time.perf_counter()
+    picture = None
     try:
         claim = read_claim(file)
     except CaseError as error:
         rows: tuple[Judged, ...] = (_broken(file, str(error)),)
     else:
-        rows = tuple(_judged(claim))
-    return rows, time.perf_counter() - began
+        measured = measure(claim)
+        rows = tuple(_judged(claim, measured))
+        if draw and measured.module is not None and not measured.wrong:
+            try:
+                picture = picture_of(measured)
+            except Exception as error:
+                rows += (_broken(file, f"its picture: {last_lines(error)}", claim),)
+    return Judgement(rows, time.perf_counter() - began, picture)
 
 
 def _is_fast(file: Path) -> bool:
@@ -114,35 +131,53 @@ def _is_fast(file: Path) -> bool:
         return True  # to be told as a row that fails
 
 
-def _in_processes(files: Sequence[Path], jobs: int) -> Iterator[tuple[Path, tuple[Judged, ...], float]]:
+def _here(files: Sequence[Path], draw: bool) -> Iterator[tuple[Path, Judgement]]:
+    for file in files:
+        yield file, judge(file, draw=draw)
+
+
+def _in_processes(files: Sequence[Path], jobs: int, draw: bool) -> Iterator[tuple[Path, Judgement]]:
     # Fresh processes: a fork of one whose kernels have started threads may hang.
+    lost = []
     with ProcessPoolExecutor(jobs, mp_context=get_context("spawn")) as pool:
-        waiting: list[Future[tuple[tuple[Judged, ...], float]]] = [pool.submit(judge, file) for file in files]
-        for file, future in zip(files, waiting, strict=True):
-            yield file, *future.result()
+        waiting = {pool.submit(judge, file, draw=draw): file for file in files}
+        for future in as_completed(waiting):
+            if future.exception() is None:
+                yield waiting[future], future.result()
+            else:
+                lost.append(waiting[future])
+    # A process that died takes with it all that had not been judged: these have one each.
+    for file in lost:
+        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
+            alone = pool.submit(judge, file, draw=draw)
+            error = alone.exception()
+            yield file, alone.result() if error is None else Judgement((_broken(file, str(error)),), 0.0)
 
 
-def _judged(claim: Claim) -> Iterator[Judged]:
-    try:
-        found = list(_measured(claim))
-    except Exception as error:
-        # Whatever a script raises is its own rows' fault: the others still run.
-        told = str(error) if isinstance(error, CaseError) else _last_lines(error)
-        for spec in claim.rows:
-            yield _line(claim, spec, None, "fails", told)
-        return
+def _judged(claim: Claim, measured: Measured) -> Iterator[Judged]:
+    found = measured.found
     for spec in claim.rows:
         own = [one for one in found if one.key == spec.key]
         if not own:
-            known = ", ".join(sorted({one.key for one in found})) or "nothing"
-            yield _line(
-                claim, spec, None, "fails", f"nothing was measured for '{spec.key}'; there is {known}"
-            )
+            yield _line(claim, spec, None, *_nothing(claim, spec, measured))
         for one in own:
             yield _line(claim, spec, one, *_verdict(spec, one))
+    if measured.wrong and found:
+        yield _broken(claim.file, measured.wrong, claim)
     for key in sorted({one.key for one in found} - {spec.key for spec in claim.rows}):
-        if claim.script:
-            yield _broken(claim.file, f"'{key}' was measured and no row asks for it", claim)
+        yield _broken(claim.file, f"'{key}' was measured and no row asks for it", claim)
+
+
+def _nothing(claim: Claim, spec: RowSpec, measured: Measured) -> tuple[Verdict, str]:
+    """Verdict on a row for which nothing was found."""
+    if measured.wrong:
+        return "fails", measured.wrong
+    if measured.absent:
+        return "missing", measured.absent
+    if spec.reference == MISSING and not (claim.script or claim.case):
+        return "missing", spec.reason
+    known = ", ".join(sorted({one.key for one in measured.found})) or "nothing"
+    return "fails", f"nothing was measured for '{spec.key}'; there is {known}"
 
 
 def _verdict(spec: RowSpec, one: Found) -> tuple[Verdict, str]:
@@ -157,7 +192,9 @@ def _verdict(spec: RowSpec, one: Found) -> tuple[Verdict, str]:
     scale = abs(reference) if spec.relative else 1.0
     if spec.relative and reference == 0.0:
         return "fails", "a relative tolerance on a reference of 0"
-    return ("holds" if abs(one.ours - reference) <= spec.tolerance * scale else "fails"), spec.reason
+    over = one.ours - reference
+    miss = {"both": abs(over), "above": -over, "below": over}[spec.side]
+    return ("holds" if miss <= spec.tolerance * scale else "fails"), spec.reason
 
 
 def _reference(spec: RowSpec, one: Found) -> float | None:
@@ -165,6 +202,7 @@ def _reference(spec: RowSpec, one: Found) -> float | None:
 
 
 def _line(claim: Claim, spec: RowSpec, one: Found | None, verdict: Verdict, reason: str) -> Judged:
+    reference = _reference(spec, one) if one else None
     return Judged(
         claim=claim.name,
         title=claim.title,
@@ -172,13 +210,15 @@ def _line(claim: Claim, spec: RowSpec, one: Found | None, verdict: Verdict, reas
         case=one.case if one else "",
         quantity=spec.quantity,
         unit=spec.unit,
-        ours=one.ours if one else None,
-        reference=_reference(spec, one) if one else None,
+        ours=float(one.ours) if one else None,
+        reference=None if reference is None else float(reference),
         tolerance=spec.tolerance,
-        relative=spec.relative,
+        # What is shown beside another figure is told in per cent of it.
+        relative=spec.relative or (verdict == "shown" and bool(reference)),
         verdict=verdict,
         reason=reason,
         source=claim.source,
+        side=spec.side,
     )
 
 
@@ -199,58 +239,3 @@ def _broken(file: Path, told: str, claim: Claim | None = None) -> Judged:
         reason=told,
         source=claim.source if claim else "",
     )
-
-
-def _measured(claim: Claim) -> Iterable[Found]:
-    """Measure what a claim is about."""
-    tables = claim.tables()
-    if claim.script is None:
-        return _of_case(claim)
-    file = claim.file.parent / claim.script
-    spec = importlib.util.spec_from_file_location(f"fyke_validation_{file.stem}", file)
-    if spec is None or spec.loader is None or not file.is_file():
-        raise FileNotFoundError(f"no script {file}")
-    module = importlib.util.module_from_spec(spec)
-    with _beside(file.parent):
-        spec.loader.exec_module(module)
-    measured: Iterable[Found] = module.measure(tables)
-    return measured
-
-
-@contextmanager
-def _beside(folder: Path) -> Iterator[None]:
-    """Let a script import what lies beside it."""
-    sys.path.insert(0, str(folder.resolve()))
-    try:
-        yield
-    finally:
-        sys.path.remove(str(folder.resolve()))
-
-
-def _of_case(claim: Claim) -> Iterator[Found]:
-    """Values of the summary of a case, by the rows' keys."""
-    case = load_case(claim.file.parent / str(claim.case))
-    system = build_system(build_net(case), case)
-    result = solve_case(system, case)
-    if not result.outcome.ok:
-        raise RuntimeError(f"{result.outcome.name}: {result.outcome.message}")
-    figures = summary(result, flow_direction=flow_direction(system)) | part_figures(
-        system, result, depth=case.water.depth
-    )
-    for spec in claim.rows:
-        yield Found(spec.key, float(_by_key(figures, spec.key)))
-
-
-def _by_key(figures: dict[str, Any], key: str) -> Any:
-    """Return the value at a dotted key, list entries by number."""
-    value: Any = figures
-    for part in key.split("."):
-        value = value[int(part)] if isinstance(value, list) else value[part]
-    return value
-
-
-def _last_lines(error: BaseException) -> str:
-    lines = "".join(traceback.format_exception_only(error)).strip().splitlines()
-    place = traceback.extract_tb(error.__traceback__)
-    where = f" ({Path(place[-1].filename).name}, line {place[-1].lineno})" if place else ""
-    return " ".join(lines[-TOLD:]) + where
