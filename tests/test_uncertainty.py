@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import csv
 import json
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -226,3 +228,16 @@ def test_every_error_of_a_study_at_once(files):
     with pytest.raises(CaseError) as error:
         read_study(study, load_case(case))
     assert len(error.value.problems) == 2
+
+
+def test_the_example_study_fits_its_panel(tmp_path):
+    examples = Path(__file__).parent.parent / "examples"
+    case = load_case(examples / "panel.toml")
+    study = read_study(examples / "studies" / "panel.toml", case)
+    few = replace(study, samples=4)
+    ensemble = propagate(case, few, tmp_path / "samples.csv")
+    assert not ensemble.failed
+    # Drag goes with the square of the current, and the shape of a taut panel hardly changes with it.
+    low, high = ensemble.tornado()[4, :, 1] / ensemble.runs[0].outputs[1]
+    slow, fast = study.inputs[4].quantile(np.array([0.05, 0.95])) / 0.5
+    assert (low, high) == pytest.approx((slow**2, fast**2), rel=1e-3)

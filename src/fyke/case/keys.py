@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import difflib
 import types
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic.fields import FieldInfo
 
 from .by_law import LawTable
+from .errors import Problem
 from .fields import Table
 from .places import Path
 from .schema import Case
@@ -162,3 +163,13 @@ def _tables(asked: type[Table]) -> list[tuple[str, type[Table]]]:
             words = _words(model, models) if len(models) > 1 and (asked in models or not listed) else []
             tables.append((name + (f' with {_tag(models)} = "{words[0]}"' if words else ""), model))
     return tables
+
+
+def unknown_keys(where: str, raw: Mapping[str, Any], known: Iterable[str]) -> list[Problem]:
+    """Return a problem for every key of a table of another file than a case that it does not know."""
+    names, out = sorted(known), []
+    for key in sorted(set(raw) - set(names)):
+        near = nearest(key, names)
+        cure = f"did you mean '{near}'?" if near else "leave it out"
+        out.append(Problem(f"{where}, {key}", "an unknown key", ", ".join(names), cure))
+    return out

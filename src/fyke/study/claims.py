@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from ..case.errors import CaseError, Problem
-from ..case.keys import nearest
+from ..case.keys import nearest, unknown_keys
 
 Level = Literal["unit", "exact", "order", "codes", "experiments", "sensitivity", "paper"]
 LEVELS: dict[Level, str] = {
@@ -133,7 +133,7 @@ def read_claim(file: Path) -> Claim:
         raw = tomllib.loads(file.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
         raise CaseError([Problem(str(file), str(error), "a claim in TOML", "correct the file")]) from None
-    problems: list[Problem] = [*_unknown(str(file), raw, _KEYS), *_ill_formed(str(file), raw)]
+    problems: list[Problem] = [*unknown_keys(str(file), raw, _KEYS), *_ill_formed(str(file), raw)]
     if problems:
         raise CaseError(problems)
     for key in _NEEDED:
@@ -155,7 +155,7 @@ def read_claim(file: Path) -> Claim:
         found = "both" if "script" in raw else "neither"
         problems.append(Problem(str(file), f"{found} of script and case", "one of them", "give one"))
     for name, one in data.items():
-        problems += _unknown(f"{file}, data.{name}", one, _TABLE_KEYS)
+        problems += unknown_keys(f"{file}, data.{name}", one, _TABLE_KEYS)
         if not ("file" in one and "columns" in one):
             problems.append(Problem(f"{file}, data.{name}", "a part of it", "file and columns", "give both"))
     if problems:
@@ -207,18 +207,9 @@ def _are_tables(value: Any) -> bool:
     )
 
 
-def _unknown(where: str, raw: dict[str, Any], known: set[str]) -> list[Problem]:
-    out = []
-    for key in sorted(set(raw) - known):
-        near = nearest(key, sorted(known))
-        cure = f"did you mean '{near}'?" if near else "leave it out"
-        out.append(Problem(f"{where}, {key}", "an unknown key", ", ".join(sorted(known)), cure))
-    return out
-
-
 def _row(where: str, raw: dict[str, Any], problems: list[Problem]) -> RowSpec | None:
     """Read one row, or add to the problems what is wrong with it."""
-    wrong = _unknown(where, raw, _ROW_KEYS)
+    wrong = unknown_keys(where, raw, _ROW_KEYS)
     for key in ("quantity", "key", "unit"):
         if not isinstance(raw.get(key), str):
             wrong.append(Problem(f"{where}, {key}", repr(raw.get(key)), "a text", f"give {key}"))

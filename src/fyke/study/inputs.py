@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..case import Case
 from ..case.errors import CaseError, Problem
-from ..case.keys import nearest
+from ..case.keys import nearest, unknown_keys
 from ..case.vary import Value, value_at
 
 Array = NDArray[np.float64]
@@ -97,7 +97,7 @@ def read_study(file: Path, case: Case) -> Study:
         found = getattr(error, "strerror", None) or str(error)
         cure = "check the name and the TOML"
         raise CaseError([Problem(str(file), found, "a study of uncertainty (TOML)", cure)]) from None
-    problems = [*_unknown(str(file), raw, _KEYS)]
+    problems = [*unknown_keys(str(file), raw, _KEYS)]
     samples = raw.get("samples", 0)
     if not _is_whole(samples) or not 2 <= samples <= MOST_SAMPLES:
         allowed = f"a whole number from 2 to {MOST_SAMPLES:,}"
@@ -146,7 +146,7 @@ def _input(where: str, raw: Any, case: Case, problems: list[Problem]) -> Input |
         cure = f"did you mean '{near}'?" if near else "write one of these"
         problems.append(Problem(f"{where}, distribution", _told(raw, "distribution"), allowed, cure))
         return None
-    wrong = _unknown(where, raw, {"key", "distribution", "relative", *wanted})
+    wrong = unknown_keys(where, raw, {"key", "distribution", "relative", *wanted})
     read = {name: _number(f"{where}, {name}", raw, name, wrong) for name in wanted}
     relative = raw.get("relative", False)
     key, nominal, unit = str(raw.get("key", "")), None, ""
@@ -228,12 +228,3 @@ def _is_whole(value: Any) -> bool:
 
 def _told(raw: dict[str, Any], key: str) -> str:
     return repr(raw[key]) if key in raw else "nothing"
-
-
-def _unknown(where: str, raw: dict[str, Any], known: set[str]) -> list[Problem]:
-    out = []
-    for key in sorted(set(raw) - known):
-        near = nearest(key, sorted(known))
-        cure = f"did you mean '{near}'?" if near else "leave it out"
-        out.append(Problem(f"{where}, {key}", "an unknown key", ", ".join(sorted(known)), cure))
-    return out
