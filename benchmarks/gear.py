@@ -1,4 +1,4 @@
-"""What gear costs: nets of a million knots, laid, joined, labelled, and put into the water.
+"""What gear costs: nets of a million knots, laid, joined, labelled, and put into the water; cages solved (cages.py).
 
 Run with `make bench-gear`. Times are processor seconds, the least of some repeats, on a machine that may be doing other
 things: read the ratios to the panel, not the seconds.
@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable
 
 import numpy as np
+from cages import statics, waves
 from timing import Row, table_of
 
 import fyke
@@ -122,7 +123,7 @@ def whole() -> list[Row]:
 
 def gear() -> list[Row]:
     """All of it."""
-    return [*building(), *whole()]
+    return [*building(), *whole(), *waves(), *statics()]
 
 
 if __name__ == "__main__":

@@ -329,3 +329,16 @@ def test_pictures_show_the_sea_bed_that_lines_come_down_to(tmp_path):
         assert bed_under(result) == level
         shown = {patch.get_gid() for ax in equilibrium_shape(result).axes for patch in ax.patches}
         assert ("sea bed" in shown) == (level is not None)
+
+
+def test_the_page_has_a_row_for_each_line():
+    from fyke.report.page.lines import LINE_COLUMNS, line_table
+
+    case, net = built(WHOLE)
+    system = build_system(net, case)
+    figures = line_figures(system, solve_static(system, tolerance=1e-3))
+    table = line_table(figures)
+    assert [row[0][0] for row in table] == ["warp", "moor 1", "moor 2", "moor 3", "moor 4"]
+    assert all(len(row) == len(LINE_COLUMNS) for row in table)
+    assert table[1][2][0].endswith(", anchor") and table[1][2][1] == figures["lines"][1]["tension_from"]
+    assert line_table({}) == []

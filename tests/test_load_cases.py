@@ -248,3 +248,27 @@ def test_load_cases_are_cases_with_their_own_water():
 def test_resume_is_refused_in_words(tmp_path):
     code, said = run(tmp_path, HEAD + GEAR + LOADS, "--resume")
     assert code == 2 and "chosen_load_case" in said
+
+
+def test_curves_go_through_the_load_cases_that_differ_in_speed_alone():
+    from fyke.report.loads import load_curves
+    from fyke.results import LoadRow
+
+    def row(speed, towards=0.0):
+        whole = {name: None for name in LoadRow.__dataclass_fields__}
+        more = {
+            "name": str(speed),
+            "ok": True,
+            "current": speed,
+            "towards": towards,
+            "drag": speed**2,
+            "parts": (),
+        }
+        return LoadRow(**(whole | more | {"volume_left": 1.0 - speed}))
+
+    figure = load_curves([row(0.4), row(0.2), row(0.6)])
+    drag, left = figure.axes
+    assert drag.lines[0].get_xdata() == pytest.approx([0.2, 0.4, 0.6])
+    assert left.lines[0].get_ydata() == pytest.approx([80.0, 60.0, 40.0])
+    assert load_curves([row(0.4), row(0.2)]) is None
+    assert load_curves([row(0.4), row(0.2), row(0.6, towards=90.0)]) is None

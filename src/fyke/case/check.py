@@ -16,7 +16,7 @@ from .errors import Problem
 from .fields import Table
 from .gear import NettingSpec, Part, Piece, Sheet
 from .gear_check import gear_findings, has_bottom
-from .grouping import grouping_findings
+from .grouping import gather, grouping_findings
 from .line_check import line_findings
 from .lines import ChainSpec, LaidSpec
 from .load_case import load_case_file_problems, load_case_findings
@@ -63,7 +63,7 @@ class Parts:
         twines = _named(TwineSpec, raw, "twine")
         for twine in twines.values():
             twine.settle(MATERIALS | own)
-        return cls(
+        made = cls(
             raw,
             MATERIALS | own,
             {name: twine for name, twine in twines.items() if twine.resolved_diameter is not None},
@@ -73,6 +73,8 @@ class Parts:
             {i: part for i, part in parts.items() if part is not None},
             folder,
         )
+        gather(made)
+        return made
 
     @property
     def is_static(self) -> bool:

@@ -143,6 +143,24 @@ def laid(sheet: Sheet, group: int) -> tuple[int, int]:
     return grouped_meshes(sheet.meshes, group, closed=sheet.closed)
 
 
+def _budget_of(parts: Parts) -> int | None:
+    """Budget of knots as it was written, None where it is no whole number."""
+    spec = parts.raw.get("grouping")
+    budget = spec.get("knots") if isinstance(spec, dict) else None
+    return budget if isinstance(budget, int) else None
+
+
+def gather(parts: Parts) -> None:
+    """Fill in the group of every piece of netting that is good by itself, so that it is laid as it will be built."""
+    made = [
+        (piece, parts.nettings[piece.netting])
+        for piece in parts.pieces.values()
+        if piece.netting in parts.nettings
+    ]
+    for (piece, _), group in zip(made, choose_groups(made, _budget_of(parts)), strict=True):
+        piece.gather(group)
+
+
 def grouping_findings(parts: Parts) -> Iterator[Finding]:
     """Everything that is wrong with groups and the budget of knots."""
     for name, netting in parts.nettings.items():
@@ -155,9 +173,8 @@ def grouping_findings(parts: Parts) -> Iterator[Finding]:
             continue
         made.append((piece, netting_of))
         yield from _of_piece(("gear", index, "group"), piece, netting_of)
-    spec = parts.raw.get("grouping")
-    budget = spec.get("knots") if isinstance(spec, dict) else None
-    if isinstance(budget, int) and len(made) == len(parts.pieces):
+    spec, budget = parts.raw.get("grouping"), _budget_of(parts)
+    if budget is not None and len(made) == len(parts.pieces):
         yield from _budget(made, budget)
     elif spec is None:
         yield from _too_many(made)

@@ -17,6 +17,7 @@ from ..solve.dynamic import Checkpoint
 RESULT, SUMMARY, KNOTS, BARS = "result.nc", "summary.json", "knots.csv", "bars.csv"
 PARTS, RINGS, LINES, WAVES = "parts.csv", "rings.csv", "lines.csv", "waves.csv"
 LOADS, LOADS_BY_PART, LOAD_CASES = "loads.csv", "loads_by_part.csv", "load_cases"  # the last a folder
+LOAD_CURVES = "load_curves"
 CHECKPOINT = "checkpoint.npz"
 # Stems of the pictures: those of an earlier run of another kind must not outlive it.
 PICTURES = (
@@ -28,6 +29,7 @@ PICTURES = (
     "histories",
     "comparison",
     "waves",
+    "load_curves",
 )
 GB = 1e9
 _ALLOWED = "a folder that can be written and holds no result"

@@ -16,7 +16,7 @@ from ..solve.clock import Clock, timed
 from ..solve.result import Result
 from ..system.build import build_system
 from ..system.system import State, System
-from .folder import LOAD_CASES, claim
+from .folder import LOAD_CASES, LOAD_CURVES, claim
 from .show import complain, stderr
 
 NAME_WIDTH = 12
@@ -109,6 +109,15 @@ def run_load_cases(
         factors = {"load_factor": spec.load_factor, "material_factor": spec.material_factor}
         rows.append(load_row(name, own, last, made.figures, **factors))
     return rows
+
+
+def draw_loads(rows: Sequence[LoadRow], folder: Path) -> list[Path]:
+    """Draw drag and volume against the speed of the current where there are enough speeds; return the files."""
+    from ..report.figures import write_figure
+    from ..report.loads import load_curves
+
+    figure = load_curves(rows)
+    return [] if figure is None else write_figure(figure, folder / LOAD_CURVES)
 
 
 def print_loads(console: Console, rows: Sequence[LoadRow]) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 from pathlib import Path
@@ -54,6 +53,7 @@ from ..solve.run import needs_compiling, planned_frames, solve_case
 from ..system.build import build_net, build_system
 from ..system.hanging import hanging
 from ..system.system import State, System
+from .account import account_rows
 from .folder import (
     BARS,
     CHECKPOINT,
@@ -68,7 +68,15 @@ from .folder import (
     make_sure_of_room,
     stopped,
 )
-from .load_cases import Done, Wishes, claim_load_cases, print_loads, refuse_load_cases, run_load_cases
+from .load_cases import (
+    Done,
+    Wishes,
+    claim_load_cases,
+    draw_loads,
+    print_loads,
+    refuse_load_cases,
+    run_load_cases,
+)
 from .progress import progress_bar
 from .show import (
     DONE,
@@ -155,6 +163,7 @@ def _run(
     figures, rows = done.figures, run_load_cases(case, system, done, folder, wishes, _solve_and_write)
     if rows:
         write_loads(rows, folder)
+        done.pictures.extend(draw_loads(rows, folder) if wishes.figures else ())
         figures |= load_figures(rows) | {"time_by_part": clock.seconds}
         write_summary(figures, folder)
     if wishes.json:
@@ -346,7 +355,7 @@ def _rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
             for told in (water_words, part_words, period_words, line_words, ring_words)
             for row in told(figures)
         ),
-        *_account_rows(figures),
+        *account_rows(figures),
         ("solver", methods),
         *_work_rows(figures),
         ("time of the solve", quantity(figures["wall_time"], "s", 3)),
@@ -371,35 +380,3 @@ def _work_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
 
 def _parts(seconds: dict[str, float]) -> str:
     return ", ".join(f"{part} {quantity(one, 's', 2)}" for part, one in seconds.items() if one >= LEAST_SHOWN)
-
-
-def _account_rows(figures: dict[str, Any]) -> list[tuple[str, str]]:
-    accounts = figures["audit"]
-    energy, knot = accounts["energy"], accounts["unbalanced_knot"]
-    where = "" if knot is None else f", at knot {knot}"
-    left = f"{math.hypot(*accounts['load_less_reaction']):.2g} of {quantity(accounts['load_size'], 'N')}"
-    rows = [
-        ("unbalanced force", quantity(accounts["unbalanced_force"], "N", 2) + where),
-        ("load less reaction", left if energy is None else f"{left}, the inertia of the net"),
-    ]
-    if energy is not None:
-        taken = {
-            "current and waves" if "waves" in figures else "current": energy["current_work"],
-            "weight and loads": -energy["potential"],
-            "turning added mass": energy["added_mass_work"],
-        }
-        if energy["inertia_work"]:
-            taken["inertia of the water"] = energy["inertia_work"]
-        if energy["support_work"]:
-            taken["moved supports"] = energy["support_work"]
-        if energy["parts_work"]:
-            taken["bending and bed"] = energy["parts_work"]
-        given = {
-            "drag": energy["drag_dissipation"],
-            "twine": energy["twine_dissipation"],
-            "stored": energy["kinetic"] + energy["elastic"],
-            "left over": energy["remainder"],
-        }
-        for what, shares in (("energy in", taken), ("energy out", given)):
-            rows.append((what, ", ".join(f"{name} {quantity(one, 'J', 3)}" for name, one in shares.items())))
-    return rows

@@ -27,8 +27,9 @@ Array = NDArray[np.float64]
 
 # Panels of so many knots or more are begun on grouped meshes: below, whole solves take as long one way as the other.
 LARGE = 15_000
-# The same of nets of several sheets and of round ones, whose slack parts take many iterations.
-LARGE_ROUND = 2_000
+# The same of nets of several sheets and of round ones: cages of 5 000 knots with heavy sinkers far apart took three
+# times the iterations that they take from the net as built.
+LARGE_ROUND = 15_000
 # Of their warm starts: many of their bars are slack, and what is slack on large meshes mostly is on small ones.
 SMALL_SMOOTHING = (0.03, 0.25)
 # Meshes along the shorter side that a grouped panel has at least.

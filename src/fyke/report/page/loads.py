@@ -49,9 +49,9 @@ def _row(one: dict[str, Any], cases: list[dict[str, Any]]) -> list[Cell]:
         (name, None),
         (number(one["current"]), one["current"]),
         (number(one["towards"], "°", 4), one["towards"]),
-        *((number(one[key], units.get(key, "")), one[key]) for _, key in _there(cases, _SEA)),
+        *((number(one.get(key), units.get(key, "")), one.get(key)) for _, key in _there(cases, _SEA)),
         (number(one["support_force"]), one["support_force"]),
-        *((number(one[key]), one[key]) for _, key in _there(cases, _AFLOAT)),
+        *((number(one.get(key)), one.get(key)) for _, key in _there(cases, _AFLOAT)),
         *((number(one[key]) + _of(one["mooring_part"]), one[key]) for _, key in _there(cases, _MOORED)),
         (number(one["tension"]) + _of(one["tension_part"]), one["tension"]),
         ("–" if used is None else number(100.0 * used, "%", 3) + _of(one["utilisation_part"]), used),
@@ -65,4 +65,4 @@ def _of(part: str) -> str:
 
 
 def _there(cases: list[dict[str, Any]], columns: tuple[tuple[str, str], ...]) -> list[tuple[str, str]]:
-    return [(name, key) for name, key in columns if any(one[key] is not None for one in cases)]
+    return [(name, key) for name, key in columns if any(one.get(key) is not None for one in cases)]

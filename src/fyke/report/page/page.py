@@ -27,6 +27,7 @@ from ..figures import OPTIONS, figures_of
 from ..histories import curves
 from ..style import SINGLE_COLUMN, styled
 from . import words
+from .lines import LINE_COLUMNS, line_table
 from .loads import load_columns, load_table
 from .packing import STEPS, deflated, kept_frames, scene
 
@@ -97,6 +98,8 @@ def render(
         panels=[(p.name, words.panel_rows(result, p)) for p in result.net.panels],
         part_columns=words.PART_COLUMNS,
         part_table=words.part_table(figures),
+        line_columns=LINE_COLUMNS,
+        line_table=line_table(figures),
         ring_columns=words.RING_COLUMNS,
         ring_table=words.ring_table(figures),
         load_columns=load_columns(figures),
