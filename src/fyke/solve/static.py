@@ -241,6 +241,7 @@ def _interior_point(
     warm_end = s.iterations + WARM_STEPS
     warm = tension is not None
     gain, s.approach = Gain(), None
+    floats = s.follows and bool(s.el.two_way.any())
     field: Far | Near | Warm = Far(s) if tension is None else Warm(s, tension)
     while not there() and s.iterations < limit:
         if isinstance(field, Far) and field.near(gap):
@@ -252,7 +253,8 @@ def _interior_point(
         report()
         if not np.isfinite(s.residual):
             return None
-        if s.follows and isinstance(field, Near) and gain.none(s.residual, step):
+        # Nets without tubes get through such spells by themselves, most often in fewer steps.
+        if floats and isinstance(field, Near) and gain.none(s.residual, step):
             s.approach, field = Approach(), Warm(s, borne(s.b.f, s.el))
         short = short + 1 if step < SHORT else 0
         if short >= SHORT_STEPS and (isinstance(field, Far) or gap <= LEAST_NEAR):
