@@ -311,7 +311,16 @@ def test_every_commented_line_of_the_template_can_be_used(tmp_path):
             shown[needed] = shown[needed].removeprefix("# " * bool(needed))
         for opened in ("# depth =",) * ('"power"' in line) + ("# [compare]",) * (key == "positions"):
             shown = [old.replace(opened, opened[2:]) for old in shown]
-        if key in ("duration", "stepper", "rtol", "atol", "max_step", "settle_force", "settle_energy"):
+        if key in (
+            "duration",
+            "start",
+            "stepper",
+            "rtol",
+            "atol",
+            "max_step",
+            "settle_force",
+            "settle_energy",
+        ):
             shown = [old.replace('kind = "static"', 'kind = "dynamic"') for old in shown]
             shown = [old.replace("# duration", "duration") for old in shown]
         file = tmp_path / "case.toml"

@@ -36,7 +36,8 @@ def test_case_runs(case, tmp_path):
     summary = json.loads(done.stdout)
     # A net in waves never comes to rest: its run is over when its time is.
     assert summary["outcome"] == ("completed" if "waves" in summary else "converged")
-    assert all("floats" in warning for warning in summary["warnings"])
+    # Ropes float, and water goes to and fro past a collar by a few diameters, which the examples say.
+    assert all("floats" in one or "Keulegan" in one for one in summary["warnings"]), summary["warnings"]
     if "waves" in summary:
         return
     bed = summary.get("bed_force", [0.0, 0.0, 0.0])

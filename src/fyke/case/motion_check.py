@@ -232,6 +232,9 @@ def _solver(specs: dict[int, MotionSpec], solve: DynamicSolve) -> Iterator[Findi
         found = f'"{solve.stepper}" with [[motion]], which explicit steps do not know'
         allowed = '"auto", "implicit" or "newmark" with [[motion]]'
         yield ("solve", "stepper"), found, allowed, 'write stepper = "implicit", or leave it out'
+    if solve.start == "equilibrium" and any(spec.velocity is not None for spec in specs.values()):
+        found = '"equilibrium" with a tow, which moves from the beginning'
+        yield ("solve", "start"), found, '"built" with a tow', "leave start out; give the tow a ramp"
     towed = all(one is None for spec in specs.values() for one in (spec.amplitude, spec.rotation, spec.file))
     for key in ("settle_force", "settle_energy"):
         if getattr(solve, key) is None or (towed and key == "settle_force"):

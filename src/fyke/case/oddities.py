@@ -113,7 +113,8 @@ def _groundless(case: Case) -> Iterator[str]:
 
 
 def _no_effect(case: Case) -> Iterator[str]:
-    if case.solve.kind == "dynamic" and "tolerance" in case.solve.model_fields_set:
+    solve = case.solve
+    if solve.kind == "dynamic" and "tolerance" in solve.model_fields_set and solve.start == "built":
         yield "The tolerance plays no part in a dynamic case; settle_force or settle_energy end it at rest."
     if case.drag.kind == "bars" and case.drag.screens is not None:
         yield 'The drag law of screens plays no part without kind = "screens" in [drag].'

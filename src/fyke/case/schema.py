@@ -72,11 +72,15 @@ class StaticSolve(Table):
 
 
 class DynamicSolve(Table):
-    """Step in time from the flat net at rest."""
+    """Step in time from the net at rest."""
 
     kind: Literal["dynamic"] = Field(description="static or dynamic", examples=["dynamic"])
     tolerance: Force = Field(default=1e-8, description="N, of static cases; settle_force is for dynamic ones")
     duration: Time = Field(description="s, simulated time", examples=[2.0])
+    start: Literal["built", "equilibrium"] = Field(
+        default="built",
+        description="begin with the net as built, or at its equilibrium in the water of time 0 without waves",
+    )
     stepper: Literal["auto", "implicit", "newmark", "verner", "symplectic"] = Field(
         default="auto", description="time stepping method"
     )

@@ -257,6 +257,7 @@ kind = "static"                      # static | dynamic
 # tolerance = 1e-8                   # N, largest unbalanced force on a free knot
 # For kind = "dynamic":
 # duration = 2.0                     # s
+# start = "equilibrium"              # begin at rest in the water of time 0; "built" as the file has the net
 # stepper = "auto"                   # auto | implicit | newmark | verner | symplectic
 # rtol = 1e-2
 # atol = 1e-6

@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 LEFT, RIGHT, BELOW, ABOVE, GAP, HEIGHT = 0.7, 0.12, 0.38, 0.08, 0.12, 0.85  # in
 LABEL = 0.36  # in, from an axis to its label
 ENERGY = "Kinetic energy"
+# Kinetic energies that span less than this have no room for the labels of a logarithmic axis.
+SPAN = 30.0
 
 
 @style.styled
@@ -26,7 +28,8 @@ def histories(result: Result, *, current: ArrayLike | None = None) -> Figure:
     """Show centre deflection, drag, largest tension and kinetic energy of a run against time, one over another.
 
     current: (3,) of any length, the direction in which drag is counted; the horizontal direction of the last frame's
-    force of the water when left out. Kinetic energy has a logarithmic axis and is left out of a run that never moves.
+    force of the water when left out. Kinetic energy has a logarithmic axis where
+    it spans SPAN or more, and is left out of a run that never moves.
     ValueError for a result with one frame.
     """
     if len(result.time) < 2:
@@ -76,7 +79,11 @@ def draw_history(ax: Axes, time: Array, values: Array, *, name: str, unit: str) 
 
 
 def draw_energy(ax: Axes, time: Array, energy: Array) -> None:
-    """Draw kinetic energy (k,) J on a logarithmic axis; moments of rest are gaps."""
+    """Draw kinetic energy (k,) J, on a logarithmic axis where it spans SPAN or more; moments of rest are gaps there."""
+    some = energy[energy > 0.0]
+    if len(some) and some.max() < SPAN * some.min():
+        draw_history(ax, time, energy, name="Kinetic\nenergy", unit="J")
+        return
     ax.plot(time, np.where(energy > 0.0, energy, np.nan), color=style.BLUE)
     ax.set_yscale("log")
     ax.set_ylabel("Kinetic\nenergy (J)")

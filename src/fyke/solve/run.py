@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
+
+import numpy as np
 
 from ..case.schema import Case, DynamicSolve
 from ..forces.compiled import is_compiled
@@ -92,6 +95,15 @@ def solve_case(
         if on_frame is not None:
             on_frame(result.frame())
         return result
+    begin = None
+    if chosen.start == "equilibrium" and resume is None:
+        rest = solve_static(system, tolerance=chosen.tolerance)
+        if not rest.outcome.ok:
+            message = f"no equilibrium to begin at: {rest.outcome.message}"
+            if on_frame is not None:
+                on_frame(rest.frame())
+            return replace(rest, outcome=replace(rest.outcome, message=message))
+        begin = State(0.0, rest.position[-1], np.zeros_like(rest.position[-1]))
     ends = chosen.settle_force is not None or chosen.settle_energy is not None
     return simulate(
         system,
@@ -99,6 +111,7 @@ def solve_case(
         stepper=stepper_of(chosen),
         every=case.output.every,
         settle=Settle(chosen.settle_force, chosen.settle_energy) if ends else None,
+        start=begin,
         on_frame=on_frame,
         on_progress=on_progress,
         on_checkpoint=on_checkpoint,
