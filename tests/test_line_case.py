@@ -12,6 +12,7 @@ from fyke.cli.check import judge
 from fyke.results import line_figures
 from fyke.solve.static import solve_static
 from fyke.system.build import build_net, build_system
+from fyke.system.hanging import hanging
 
 HEAD = """schema = 1
 [water]
@@ -59,6 +60,8 @@ bearing = "45 deg"
 pieces = [{ twine = "ground", length = "12 m", segments = 6 }, { twine = "rope", length = "26 m", segments = 8 }]
 """
 WHOLE = HEAD + CAGE + LINE + MOORINGS
+PIPE = '[tube.pipe]\nmaterial = "HDPE"\ndiameter = "110 mm"\nwall = "6.6 mm"\n'
+COLLAR = '[[gear]]\nkind = "collar"\nname = "collar"\ntube = "pipe"\nalong = "cage.top"\n'
 
 
 def built(text):
@@ -248,6 +251,18 @@ WRONG = {
         MOORINGS.replace('"26 m"', '"10 m"'),
         ("[[gear]] 2 pieces", "22 m of moorings 'moor'", "at least", "longer"),
     ),
+    "moorings of a collar too short": (
+        PIPE + COLLAR + MOORINGS.replace('"cage.top"', '"collar"').replace('"26 m"', '"10 m"'),
+        ("[[gear]] 3 pieces", "22 m of moorings 'moor'", "at least", "longer"),
+    ),
+    "too short for a collar": (
+        PIPE + COLLAR + LINE.replace("cage.top[0]", "collar:0").replace('"36 m"', '"20 m"'),
+        ("[[gear]] 3 length", "20 m of line 'warp', whose ends are 35.", "at least 29.", "longer"),
+    ),
+    "a tube for twine": (
+        PIPE + LINE.replace('"rope"', '"pipe"'),
+        ("[[gear]] 2 twine", '"pipe"', '"rope"', 'kinds "ring" and "collar" alone'),
+    ),
     "lines in a circle": (
         LINE.replace("[30.0, 0.0, -20.0]", '"other:3"')
         + LINE.replace('"warp"', '"other"').replace("[30.0, 0.0, -20.0]", '"warp:3"'),
@@ -283,6 +298,47 @@ def test_a_message_in_four_parts(name):
         all(part in told for part, told in zip((where, found, allowed, cure), problem, strict=True))
         for problem in problems
     ), problems
+
+
+def test_faults_of_netting_that_lines_hang_on_are_told_once():
+    """A bottom that cannot be gathered and a netting that is not there are no faults of the lines."""
+    for old, new, where in (
+        ("height = 1.9", "height = 1.9\nbottom = { meshes = 3 }", "[[gear]] 1 bottom"),
+        ('netting = "main"', 'netting = "mian"', "[[gear]] 1 netting"),
+    ):
+        with pytest.raises(CaseError) as error:
+            parse_case(WHOLE.replace(old, new))
+        (problem,) = error.value.problems
+        assert problem.where.endswith(where)
+
+
+def test_a_frame_of_lines_may_be_held_by_lines_that_come_after_it():
+    """A grid as it is drawn: its frame first, then what anchors it."""
+    frame = LINE.replace('"warp"', '"frame"').replace("[30.0, 0.0, -20.0]", "[-5.0, 8.0, -3.0]")
+    frame = frame.replace('"cage.top[0]"', '[5.0, 8.0, -3.0]\nfixed = "none"').replace("36 m", "10 m")
+    anchors = "".join(
+        LINE.replace('"warp"', f'"anchor {k}"')
+        .replace("[30.0,", f"[{x},")
+        .replace('"cage.top[0]"', f'"frame:{k}"')
+        for k, x in ((0, -30.0), (20, 30.0))
+    )
+    case, net = built(HEAD + CAGE + frame + anchors)
+    assert not hanging(build_system(net, case), static=True)
+    ends = {rope.name: net.labels[rope.knots[-1]] for rope in net.ropes}
+    assert ends["anchor 0"] == "frame:0"
+    assert ends["anchor 20"] == "frame:20"
+
+
+def test_a_line_that_is_too_short_for_a_knot_known_late_is_warned_of():
+    ring = (
+        '[[gear]]\nkind = "ring"\nname = "r"\ntube = "pipe"\ndiameter = 3\nknots = 12\ncentre = [0, 0, 0]\n'
+    )
+    text = HEAD + PIPE + CAGE + ring + LINE.replace("cage.top[0]", "r:0").replace("36 m", "20 m")
+    case, net = built(text)
+    (told,) = hanging(build_system(net, case), static=True)
+    apart = np.hypot(28.5, 20.0)
+    assert f"Line 'warp' of 20 m is too short as built: its ends lie {apart:.4g} m apart" in told
+    assert f"a strain of {(apart / 20 - 1) * 100:.1f} %" in told
 
 
 def test_every_fault_is_told_at_once():

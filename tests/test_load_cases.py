@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 import fyke
 from fyke.case import CaseError, load_cases_of, parse_case
 from fyke.cli.app import app
+from fyke.cli.check import judge
 
 GEAR = """
 [twine.main]
@@ -272,3 +273,9 @@ def test_curves_go_through_the_load_cases_that_differ_in_speed_alone():
     assert left.lines[0].get_ydata() == pytest.approx([80.0, 60.0, 40.0])
     assert load_curves([row(0.4), row(0.2)]) is None
     assert load_curves([row(0.4), row(0.2), row(0.6, towards=90.0)]) is None
+
+
+def test_check_tells_every_load_case():
+    told = judge(parse_case(HEAD + GEAR + LOADS))["load_cases"]
+    assert [one["name"] for one in told] == ["slow", "fast across", "3"]
+    assert [one["current"] for one in told] == ["[0.2, 0, 0] m/s", "[0, 0.4, 0] m/s", "[0.3, 0, 0] m/s"]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, cast
 
 from ..netting.lattice import taut_ratios
@@ -34,14 +34,18 @@ _LEAST_EDGE = 1e-6  # m, that a rope can follow; a shorter one is a slip of the 
 _FLAT = ("panel", "trapezoid", "triangle")
 
 
-def reference(path: Path, keys: dict[str, Any], table: str, there: list[str]) -> Iterator[Finding]:
-    """A key that names a table of the file, the twine of a netting for one."""
+def reference(
+    path: Path, keys: dict[str, Any], table: str, there: list[str], tubes: Collection[str] = ()
+) -> Iterator[Finding]:
+    """A key that names a table of the file, the twine of a netting for one; tubes: that may be taken for twine."""
     name = keys.get(table)
     if not isinstance(name, str) or name in there:
         return
     allowed = f"a {table} of this file: " + (", ".join(written(one) for one in there) or "there is none yet")
     near = nearest(name, there)
     cure = f'did you mean "{near}"?' if near else f"add a table [{table}.{name}] or name one that is there"
+    if table == "twine" and name in tubes:
+        cure = 'tubes make gear of the kinds "ring" and "collar" alone: name a twine or chain'
     yield path, written(name), allowed, cure
 
 
@@ -52,22 +56,13 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
         for table in ("netting", "twine", "tube"):
             there = [name for name, _ in parts.items(table)]
             there += [name for name, _ in parts.items("chain") if table == "twine"]
-            yield from reference(("gear", index, table), keys, table, there)
+            tubes = [name for name, _ in parts.items("tube")]
+            yield from reference(("gear", index, table), keys, table, there, tubes)
         yield from _held(("gear", index), keys, parts)
         if keys.get("kind") in (*_FLAT, "box", None):
             yield from _one_size(("gear", index), keys)
     for index, piece in parts.pieces.items():
-        path = ("gear", index)
-        if isinstance(piece, TaperedSpec) and piece.netting in parts.nettings:
-            wrong_cuts = list(cutting(path, piece, parts.nettings[piece.netting]))
-            yield from wrong_cuts
-            if wrong_cuts:
-                continue
-        if isinstance(piece, BoxSpec):
-            yield from hexagons_round(path, piece, parts.nettings.get(piece.netting), bottom=piece.bottom)
-        if isinstance(piece, RoundSpec):
-            yield from round_findings(path, piece, parts.nettings.get(piece.netting))
-        yield from _frame(path, piece, parts.nettings.get(piece.netting))
+        yield from piece_findings(("gear", index), piece, parts.nettings.get(piece.netting))
     sheets = sheets_by_name(parts)
     yield from seam_findings(parts, sheets)
     for index, rope in parts.ropes.items():
@@ -78,6 +73,20 @@ def gear_findings(parts: Parts, water: Water | None) -> Iterator[Finding]:
     for index, bodies in parts.bodies.items():
         yield from body_findings(("gear", index), bodies, water)
         yield from _hung(("gear", index), bodies, parts, sheets)
+
+
+def piece_findings(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Finding]:
+    """What is wrong with a piece of netting by itself; netting: None where it is wrong or not there."""
+    if isinstance(piece, TaperedSpec) and netting is not None:
+        wrong_cuts = list(cutting(path, piece, netting))
+        yield from wrong_cuts
+        if wrong_cuts:
+            return
+    if isinstance(piece, BoxSpec):
+        yield from hexagons_round(path, piece, netting, bottom=piece.bottom)
+    if isinstance(piece, RoundSpec):
+        yield from round_findings(path, piece, netting)
+    yield from _frame(path, piece, netting)
 
 
 def _names(parts: Parts) -> Iterator[Finding]:
@@ -155,7 +164,9 @@ def _frame(path: Path, piece: Piece, netting: NettingSpec | None) -> Iterator[Fi
 
 
 def _overstretched(path: Path, piece: Piece, sheet: Sheet, netting: NettingSpec) -> Finding:
-    strain = f"which strains the bars by {sheet.strain(netting) * 100:.3g} % before anything acts"
+    percent = sheet.strain(netting) * 100
+    told = f"{percent:.0f}" if percent > 100.0 else f"{percent:.3g}"
+    strain = f"which strains the bars by {told} % before anything acts"
     if isinstance(piece, FlatSpec | BoxSpec):
         key = "size" if piece.given_size else "hanging_ratio"
         of = "" if isinstance(piece, FlatSpec) else "a bottom of " if sheet.sewn else "walls of "
@@ -330,7 +341,10 @@ def knot_findings(
         sheet, netting = sheets[name]
         if not sheet.has(int(match[2]), int(match[3]), netting.mesh):
             last = sheet.last(netting.mesh)
-            allowed = f"a knot of '{name}': columns 0 to {last[0]}, rows 0 to {last[1]} from below"
+            within = int(sheet.sewn and not sheet.closed)
+            columns, rows = f"{within} to {last[0] - within}", f"{within} to {last[1]}"
+            allowed = f"a knot of '{name}': columns {columns}, rows {rows} from below"
+            allowed += "; those of its edge are of the walls" * bool(within)
             allowed += "; of diamond netting those whose sum is even" * (netting.mesh == "diamond")
             allowed += "; of hexagons every other one" * (netting.mesh_name == "hexagonal")
             allowed += "; its tip is 0-0" * sheet.tip

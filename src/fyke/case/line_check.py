@@ -10,13 +10,15 @@ from numpy.typing import NDArray
 
 from ..netting.lines import length_for
 from ..netting.net import Net
-from ..netting.references import ON_EDGE, around, knot_at, row_of
+from ..netting.references import IN_ROW, ON_EDGE, around, knot_at, row_of
 from .gear import LARGEST_STRAIN
-from .gear_check import knot_findings, reference, sheets_by_name
+from .gear_check import knot_findings, piece_findings, reference, sheets_by_name
 from .keys import nearest
 from .lines import LaidSpec, LineSpec, MooringsSpec
 from .places import Path
+from .rigging import RopeSpec
 from .rows import Sheets, in_row_findings, lines_of, rows_of
+from .tubes import TubularSpec
 from .written import written
 
 if TYPE_CHECKING:
@@ -94,7 +96,7 @@ def _ends(
 ) -> Iterator[Finding]:
     """What is wrong with the knots that a line names."""
     if isinstance(line, MooringsSpec):
-        yield from _rim((*path, "around"), line, called, sheets, rows)
+        yield from _rim((*path, "around"), line, called, parts, sheets, rows)
         return
     if not isinstance(line, LineSpec):
         return
@@ -111,9 +113,15 @@ def _ends(
     if line.begin == line.end:
         yield (*path, "to"), f"the place where {called} begins", "another place or knot", "check from and to"
     held = [isinstance(end, str) or hold for end, hold in zip((line.begin, line.end), line.held, strict=True)]
-    if parts.is_static and not any(held):
+    if parts.is_static and not any(held) and not _others_at(path, parts):
         cure = 'write fixed = "both", or "from" or "to"'
         yield (*path, "fixed"), f"no end of {called} is held", "an end that is held, for a static case", cure
+
+
+def _others_at(path: Path, parts: Parts) -> bool:
+    """Whether another line is made fast to a line, and may hold it: as anchor lines do the frame of a grid."""
+    name = parts.name_of(cast(int, path[1]))
+    return any(name in map(_part_of, _words(other)) for i, other in parts.lines.items() if i != path[1])
 
 
 def _on_edge(
@@ -141,12 +149,16 @@ def _on_edge(
 
 
 def _rim(
-    path: Path, line: MooringsSpec, called: str, sheets: Sheets, rows: dict[str, int]
+    path: Path, line: MooringsSpec, called: str, parts: Parts, sheets: Sheets, rows: dict[str, int]
 ) -> Iterator[Finding]:
     there = {f"{one}.{edge}": s.edge(edge, n.mesh)[0] for one, (s, n) in sheets.items() for edge in s.edges}
     there |= rows
+    if line.around.rpartition(".")[0] in parts.netting_names and line.around.rpartition(".")[0] not in sheets:
+        return  # on netting that is wrong itself, and told
     if line.around not in there:
-        near = nearest(line.around, there) or next(iter(there), "")
+        own = {one for i, part in parts.lines.items() for one in lines_of(part, parts.name_of(i))}
+        others = [one for one in there if one not in own]
+        near = nearest(line.around, others) or next(iter(others), "")
         allowed = '"NAME.EDGE" of netting, or the name of a ring or rope'
         cure = f'did you mean "{near}"?' if near else "add gear that they can be made fast to"
         yield path, f"{written(line.around)} of {called}", allowed, cure
@@ -241,11 +253,12 @@ def _known_ends(line: LaidSpec, parts: Parts, water: Water) -> list[tuple[Place,
     if isinstance(line, LineSpec):
         ends = [_known(one, parts) for one in (line.begin, line.end)]
         return [(ends[0], ends[1])] if ends[0] is not None and ends[1] is not None else []
-    net = (
-        _netting(_part_of(line.around.rpartition(".")[0]), parts) if isinstance(line, MooringsSpec) else None
-    )
-    rim = row_of(net, line.around) if net is not None and isinstance(line, MooringsSpec) else None
-    if net is None or rim is None or not isinstance(line, MooringsSpec):
+    if not isinstance(line, MooringsSpec):
+        return []
+    around_edge = _edges_followed(parts).get(line.around, line.around)
+    net = _netting(around_edge.rpartition(".")[0], parts)
+    rim = row_of(net, around_edge) if net is not None else None
+    if net is None or rim is None:
         return []
     x, y = net.positions[np.unique(rim), :2].mean(axis=0).tolist()
     anchors = line.anchors((x, y), water.depth or 0.0)
@@ -258,9 +271,18 @@ def _known_ends(line: LaidSpec, parts: Parts, water: Water) -> list[tuple[Place,
 def _known(end: Any, parts: Parts) -> Place | None:
     if not isinstance(end, str):
         return np.array(end, dtype=float)
-    net = _netting(_part_of(end), parts)
-    knot = None if net is None else knot_at(net, end)
+    row = IN_ROW.fullmatch(end)
+    edge = _edges_followed(parts).get(row[1]) if row else None
+    word = f"{edge}[{row[2]}]" if row and edge else end
+    net = _netting(_part_of(word), parts)
+    knot = None if net is None else knot_at(net, word)
     return None if net is None or knot is None else net.positions[knot]
+
+
+def _edges_followed(parts: Parts) -> dict[str, str]:
+    """The edge of netting that every rope, ring and collar along one is made fast to, by the name of it."""
+    along: dict[int, RopeSpec | TubularSpec] = {**parts.ropes, **parts.tubulars}
+    return {parts.name_of(i): one.along for i, one in along.items() if one.along}
 
 
 def _netting(name: str, parts: Parts) -> Net | None:
@@ -272,6 +294,8 @@ def _netting(name: str, parts: Parts) -> Net | None:
         twine = parts.twines.get(netting.twine)
         if twine is None or twine.resolved_law is None or twine.resolved_density is None:
             return None
+        if any(piece_findings((), piece, netting)):
+            return None  # told already
         piece.call(parts.name_of(index))
         piece.settle(netting)
         return piece.lay(netting, twine.twine(netting.twine))

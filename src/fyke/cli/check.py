@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..case import Case, CaseError, load_case
+from ..case import Case, CaseError, load_case, load_cases_of
 from ..case.gear import NettingSpec, Sheet
 from ..netting.measures import measure_net, measure_panel
 from ..netting.net import Panel
@@ -36,6 +36,7 @@ from .check_rigging import (
 from .show import (
     DONE,
     WRONG_INPUT,
+    percent,
     print_json,
     print_problems,
     print_rows,
@@ -82,6 +83,7 @@ def judge(case: Case) -> dict[str, Any]:
     collars, see tubes_of; lines: see lines_of; bed: of the sea, None without one; bodies: floats and sinkers, one table
     each kind, mass (kg), diameter (m), weight_in_water (N, negative floats) and drag_area (m2) of each one,
     total_weight of all.
+    load_cases: name, current and waves of each, in words.
     drag, shelter: the laws by their words; out_of_range: at how many bars, knots or screens those of drag leave their
     ranges in the undisturbed current.
     """
@@ -122,8 +124,21 @@ def judge(case: Case) -> dict[str, Any]:
         "bodies": bodies_of(case, system),
         "warnings": [*case.warnings, *hanging(system, static=case.solve.kind == "static"), *outside.warnings],
         "out_of_range": outside.counts,
+        "load_cases": _load_cases(case),
         "case_sha256": case.sha256,
     }
+
+
+def _load_cases(case: Case) -> list[dict[str, str]]:
+    """Return every load case by its name, with its current and waves in words."""
+    return [
+        {
+            "name": name,
+            "current": vector(one.current.at_surface, "m/s"),
+            "waves": one.waves.described if one.waves else "",
+        }
+        for _, name, one in load_cases_of(case)
+    ]
 
 
 def _from_the_carriage(system: System) -> System:
@@ -235,6 +250,12 @@ def _show(file: Path, findings: dict[str, Any]) -> None:
         print_rows(console, f"line {line['name']}: {', '.join(line['twines'])}", line_rows(line))
     for bodies in findings["bodies"]:
         print_rows(console, f"{bodies['kind']} {bodies['name']}", body_rows(bodies))
+    if findings["load_cases"]:
+        rows = [
+            (one["name"], "; ".join(filter(None, (one["current"], one["waves"]))))
+            for one in findings["load_cases"]
+        ]
+        print_rows(console, "load cases", rows)
     print_warnings(console, findings["warnings"])
     if not findings["warnings"]:
         console.print("Nothing looks odd.")
@@ -271,7 +292,7 @@ def _panel_rows(panel: dict[str, Any]) -> list[tuple[str, str]]:
         ("fixed knots", f"{panel['fixed']}"),
         (
             "bar strain as built" if panel["rims"] else "bar strain when flat",
-            f"{panel['strain'] * 100:.2f} % ({state})",
+            f"{percent(panel['strain'])} ({state})",
         ),
         ("Reynolds number", _reynolds(panel)),
         ("twine damping", f"{quantity(panel['damping_time'] * 1e6, 'us', 3)}, {panel['damping_source']}"),

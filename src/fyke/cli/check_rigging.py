@@ -11,7 +11,7 @@ from ..netting.lattice import Corner, Side
 from ..netting.net import Rope
 from ..netting.twine import Twine
 from ..system.system import System
-from .show import quantity
+from .show import percent, quantity
 
 ROUNDING = 1e-9  # of a strain
 
@@ -175,7 +175,7 @@ def rope_rows(rope: dict[str, Any]) -> list[tuple[str, str]]:
         ("along", f"{rope['along']}, {rope['bars']} bars"),
         (
             "length",
-            f"{quantity(rope['length'], 'm')}, strain as built {rope['strain'] * 100:.2f} % ({state})",
+            f"{quantity(rope['length'], 'm')}, strain as built {percent(rope['strain'])} ({state})",
         ),
         ("diameter", quantity(rope["diameter"] * 1e3, "mm")),
         ("EA", quantity(rope["stiffness"], "N")),

@@ -83,6 +83,11 @@ def quantity(value: float | None, unit: str, digits: int = 4) -> str:
     return "-" if value is None else f"{value:.{digits}g} {unit}".rstrip()
 
 
+def percent(share: float) -> str:
+    """Write a share in percent, two decimals; what rounds to nothing has no sign."""
+    return f"{share * 100:z.2f} %"
+
+
 def vector(values: Sequence[float], unit: str) -> str:
     """Write a vector with its unit; what is only rounding beside its largest component is 0."""
     rounding = 1e-9 * max(map(abs, values))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import floor, log10
 from typing import Any
 
 import numpy as np
@@ -28,8 +29,9 @@ Indices = NDArray[np.int64]
 LEFT, RIGHT, BELOW, TITLE, ARROW, LEGEND = 0.6, 0.15, 0.38, 0.2, 0.26, 0.22  # in, around axes
 TALLEST = 2.6  # in, of axes
 ROWS = 4  # of knots from above, the highest and the lowest among them
-COLOURS = (style.BLUE, style.GREEN, style.ORANGE, style.BLACK)
+COLOURS = (style.SKY, style.BLUE, style.GREEN, style.NAVY)  # of rows; tubes and the cut have others
 BUILT = (0, (2.0, 1.4))
+_LEAST_SPAN = 1e-3  # m, of heights that are told apart
 AS_BUILT = "as built"
 
 
@@ -58,8 +60,8 @@ def sections(
     figure, axes = _sheet(limits, [*_names(rows), *_tubes(net)], arrow=bool(words))
     _draw_cuts(axes[0], cuts)
     _draw_tubes(axes, net, shapes[1], (middle, flow))
-    for index, ((height, _), pair) in enumerate(zip(rows, rings, strict=True)):
-        _draw_row(axes[1], pair, COLOURS[index % ROWS], _name(height))
+    for index, (name, pair) in enumerate(zip(_row_names(rows), rings, strict=True)):
+        _draw_row(axes[1], pair, COLOURS[index % ROWS], name)
     if words:
         top = figure.get_figheight() - LEGEND * _legend_rows(rows, net) - 0.5 * ARROW
         for ax, step, said in zip(axes, ([1.0, 0.0], flow[:2]), ("", words), strict=True):
@@ -128,12 +130,15 @@ def _rows(net: Net, panels: list[int]) -> list[tuple[float, Indices]]:
     return [(float(heights[k]), found[float(heights[k])]) for k in chosen]
 
 
-def _name(height: float) -> str:
-    return f"built at z = {number(round(height, 3))} m"
+def _row_names(rows: list[tuple[float, Indices]]) -> list[str]:
+    """Names of rows by their heights, to a hundredth of what lies between the highest and the lowest."""
+    heights = [height for height, _ in rows]
+    digits = 2 - floor(log10(max(np.ptp(heights), _LEAST_SPAN)))
+    return [f"built at z = {number(round(height, max(digits, 0)))} m" for height in heights]
 
 
 def _names(rows: list[tuple[float, Indices]]) -> list[str]:
-    return [AS_BUILT, "last frame", *(_name(height) for height, _ in rows)]
+    return [AS_BUILT, "last frame", *_row_names(rows)]
 
 
 def _legend_rows(rows: list[tuple[float, Indices]], net: Net) -> int:
@@ -196,7 +201,7 @@ def _sheet(limits: list[Array], names: list[str], *, arrow: bool) -> tuple[Figur
 def _draw_cuts(ax: Axes, cuts: list[Array]) -> None:
     looks: tuple[dict[str, Any], ...] = (
         {"colors": style.SLACK_GREY, "linewidths": 0.8, "label": AS_BUILT, "linestyles": [BUILT]},
-        {"colors": style.BLUE, "linewidths": 1.1, "label": "last frame"},
+        {"colors": style.BLACK, "linewidths": 1.1, "label": "last frame"},
     )
     for lines, look in zip(cuts, looks, strict=True):
         ax.add_collection(LineCollection(list(lines), clip_on=False, **look), autolim=False)

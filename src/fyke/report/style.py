@@ -25,7 +25,7 @@ RESOLUTION = 300  # dots per inch
 TYPE, SMALL_TYPE = 7.5, 7.0  # points
 
 BLACK, BLUE, VERMILION, GREEN, ORANGE = "#000000", "#0072B2", "#D55E00", "#009E73", "#E69F00"
-PURPLE = "#CC79A7"
+PURPLE, SKY, NAVY = "#CC79A7", "#56B4E9", "#08306B"
 GRID_GREY, SLACK_GREY, FRAME_GREY = "#D9D9D9", "#8C8C8C", "#595959"
 SLACK_DASHES = (0, (2.0, 1.4))
 TENSION_COLOURS = ListedColormap(mpl.colormaps["viridis_r"](np.linspace(0.1, 1.0, 256)), name="fyke tension")

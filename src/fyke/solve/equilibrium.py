@@ -12,6 +12,7 @@ from ..forces.shear import add_shear
 from ..forces.surroundings import Surroundings
 from ..system.elements import Elements
 from ..system.system import State, System
+from .approach import Approach
 from .linear import Factorizer, Pattern, Solve, factorizer
 from .smooth import assemble_step
 
@@ -68,7 +69,8 @@ class Work:
 class Equilibrium:
     """Positions about the net's middle, the forces there, and how often the tangent was factorized.
 
-    follows: the shelter is that of the present shape at every step; else it is held until it is renewed. smoothing: of
+    follows: the shelter is that of the present shape at every step; else it is held until it is renewed. approach: how
+    much of its change a step makes, None for all of it; the residual is that of the whole change. smoothing: of
     a warm start with carried tensions, see solve.warm_field, None for the usual.
     """
 
@@ -86,6 +88,7 @@ class Equilibrium:
         self.b = Work.of(len(self.x), len(self.el.knot_a), self.pattern)
         self.iterations = self.factorizations = 0
         self.smoothing: tuple[float, float] | None = None
+        self.approach: Approach | None = None
         self.residual, self.worst = self.true_residual()
         self.good = self.x.copy()
 
@@ -158,8 +161,18 @@ class Equilibrium:
 
     def accept(self, step: float) -> None:
         """Take a step and judge it."""
+        held = self.surroundings.left
         self.x += step * self.b.dx
         self.iterations += 1
         self.residual, self.worst = self.true_residual()
+        if self.follows and self.approach is not None:
+            self._follow_in_part(held, self.approach)
         if np.isfinite(self.residual):
             self.good[:] = self.x
+
+    def _follow_in_part(self, held: Array, approach: Approach) -> None:
+        """Let the shelter of the next step go part of the way from the one held (n, 1) to that of the shape."""
+        water, b = self.surroundings, self.b
+        water.left = approach.step(held, water.left)
+        self.el, self.u = water.at(self.x + self.origin, self._still, self.time)
+        water.load(self.x, self.u, self.el, b.t, b.length, b.load)

@@ -14,6 +14,9 @@ from .two_way import TwoWay
 TO_EDGE = 0.99
 # Largest rotation of a bar in one step (rad): a turning bar makes no false stretch here, but the water's load turns.
 LARGEST_TURN = 0.35
+# A net with tubes goes far as a whole, and the first taut line says little: near it is with a gap FARTHER times the
+# usual, or with the usual one and steps below SHORT_FAR, as slack netting makes them.
+FARTHER, SHORT_FAR = 1e-3, 0.05
 # Strain that every bar is at least allowed at the start.
 START_STRAIN = 0.05
 # Least centring, (mu_affine / mu)^3 being Mehrotra's.
@@ -43,10 +46,13 @@ class Far:
         self.Y[el.two_way] = 0.0
         self.Y[el.two_way, 0] = 2.0 * el.rest_length[el.two_way]
         self.Z[el.two_way] = 0.0
+        self._last = 1.0
         self.cones = m - int(np.count_nonzero(el.two_way))
 
     def near(self, gap: float) -> bool:
         """Whether a bar is so near to its cone's edge, over its length, that the near field may take over."""
+        if self.tubes.any and self.cones and self._last > SHORT_FAR:
+            gap *= FARTHER
         return not self.cones or bool(cone.smallest_gap(self.Y, self.s.el.rest_length) < gap)
 
     def step(self) -> float:
@@ -72,6 +78,7 @@ class Far:
         self.Z += step * self.dZ
         self.tubes.T += step * self.tubes.dT
         s.accept(step)
+        self._last = step
         return step
 
     def _direction(self, solve: Solve, centre: float) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..forces.bars import borne
+from .approach import Approach
 from .equilibrium import Equilibrium
 from .outcome import Verdict
 
@@ -20,35 +21,9 @@ Array = NDArray[np.float64]
 
 # Most renewals. Between two of them the unbalanced force falls to CLOSER of what the last one made.
 MOST_RENEWALS, CLOSER = 100, 0.02
-# Least part of a change of the shelter that is made.
-LEAST_PART = 0.02
 
 # Finds the shape in the shelter that is held, to a tolerance (N), from tensions (m,) N or none.
 FindShape = Callable[[float, Array | None], Verdict]
-
-
-class Approach:
-    """Steps of the shelter from the one held towards the one that the shape found in it would have.
-
-    Each makes that part of the change which would have ended the last change along itself, the first a whole one:
-    Aitken's process for vectors, as fluid-structure solvers use it (U. Kuettler, W.A. Wall, Comput. Mech. 43, 2008;
-    known, not read).
-    """
-
-    def __init__(self) -> None:
-        self._part = 1.0
-        self._change: Array | None = None
-
-    def step(self, held: Array, found: Array) -> Array:
-        """Return the shelter (n, 1) to hold next."""
-        last, change = self._change, found - held
-        if last is not None:
-            turn = change - last
-            size = float(np.einsum("nq,nq->", turn, turn))
-            part = -self._part * float(np.einsum("nq,nq->", last, turn)) / size if size > 0.0 else self._part
-            self._part = min(max(part, LEAST_PART), 1.0)
-        self._change = change
-        return np.asarray(held + self._part * change)
 
 
 def by_renewals(s: Equilibrium, tolerance: float, tension: Array | None, find_shape: FindShape) -> Verdict:

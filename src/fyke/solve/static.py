@@ -6,7 +6,8 @@ makes no false stretch. As soon as one bar is within NEAR of its cone's edge, th
 an iteration and two solves with it. A net on which they do not arrive relaxes in time (solve.relaxation). The end is
 judged on the true residual: the largest unbalanced force on a free knot with tensions by the elastic law itself.
 Shelter is that of the present shape at every step, though the tangent does not know how it changes; where that way
-does not arrive it is held between renewals (solve.held_shelter).
+does not arrive it goes part of the way a step (solve.approach), and at last is held between renewals
+(solve.held_shelter).
 """
 
 from __future__ import annotations
@@ -20,8 +21,10 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_matrix
 from scipy.sparse.csgraph import connected_components
 
+from ..forces.bars import borne
 from ..forces.evaluate import evaluate
 from ..system.system import State, System
+from .approach import Approach, Gain
 from .equilibrium import Equilibrium
 from .far_field import Far
 from .held_shelter import by_renewals
@@ -237,6 +240,8 @@ def _interior_point(
     begin, gap, short = s.x.copy(), NEAR, 0
     warm_end = s.iterations + WARM_STEPS
     warm = tension is not None
+    gain, s.approach = Gain(), None
+    floats = s.follows and bool(s.el.two_way.any())
     field: Far | Near | Warm = Far(s) if tension is None else Warm(s, tension)
     while not there() and s.iterations < limit:
         if isinstance(field, Far) and field.near(gap):
@@ -248,6 +253,9 @@ def _interior_point(
         report()
         if not np.isfinite(s.residual):
             return None
+        # Nets without tubes get through such spells by themselves, most often in fewer steps.
+        if floats and isinstance(field, Near) and gain.none(s.residual, step):
+            s.approach, field = Approach(), Warm(s, borne(s.b.f, s.el))
         short = short + 1 if step < SHORT else 0
         if short >= SHORT_STEPS and (isinstance(field, Far) or gap <= LEAST_NEAR):
             return None

@@ -14,14 +14,27 @@ from .system import System
 
 Indices = NDArray[np.int64]
 
+MOST_STRAIN = 0.2  # of a line as built; ropes break at a few tens of percent
+
 
 def hanging(system: System, *, static: bool) -> tuple[str, ...]:
-    """Return a sentence for all that nothing holds, in a static case, and for every collar that cannot carry its load.
+    """Return a sentence for what nothing holds, in a static case, for lines too short, and for collars that sink.
 
     Moorings, which are lines that end at a held knot, load a collar by how they are set and are left out of its load.
     """
     held = _held_by_nothing(system.net) if static else ()
-    return (*held, *_sinking(system))
+    return (*held, *_too_short(system.net), *_sinking(system))
+
+
+def _too_short(net: Net) -> Iterator[str]:
+    for line in (rope for rope in net.ropes if rope.kind == "line"):
+        length = float(net.rest_length[line.bars].sum())
+        apart = float(np.linalg.norm(net.positions[line.knots[-1]] - net.positions[line.knots[0]]))
+        if apart > (1.0 + MOST_STRAIN) * length:
+            yield (
+                f"Line '{line.name}' of {length:.4g} m is too short as built: its ends lie {apart:.4g} m apart, a "
+                f"strain of {(apart / length - 1.0) * 100.0:.1f} %; make it longer, or bring its ends nearer."
+            )
 
 
 def _held_by_nothing(net: Net) -> Iterator[str]:
