@@ -154,7 +154,7 @@ def test_every_figure_is_known_to_the_folder(case):
     case.write_text(text + '\n[compare]\npositions = "measured.csv"\n' + waves)
     fyke("run", case, "--quiet")
     drawn = {file.stem for file in Path("small").iterdir() if file.suffix not in (".nc", ".json", ".csv")}
-    # A panel is not closed, and has no sections; curves are of load cases.
+    # A panel is not closed and has no sections; a case without load cases has no curves of them.
     assert drawn == set(PICTURES) - {"sections", "load_curves"}
 
 

@@ -45,7 +45,7 @@ def running(tmp_path):
 def test_interrupted_run_saves_what_it_has(running):
     process, folder = running
     process.send_signal(signal.SIGINT)
-    assert process.wait(timeout=30) == 1
+    assert process.wait(timeout=120) == 1
     told = process.stderr.read()
     assert "interrupted" in told and "Traceback" not in told
     assert json.loads((folder / "summary.json").read_text())["outcome"] == "interrupted"

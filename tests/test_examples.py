@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import json
 import re
+import runpy
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 import fyke
 from fyke.case import load_cases_of
+from fyke.forces.evaluate import evaluate
 from fyke.results import by_part
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
@@ -151,3 +154,67 @@ def test_the_cage_at_seven_speeds_is_the_one_of_the_set_up():
     twine = 25.5e-3 * (216 * 61 + 216 * 60)
     weight = 9.81 * 140.0 * np.pi / 4 * 2.42e-3**2 * twine + 16 * 5.15
     assert system.weight_in_water == pytest.approx(weight, rel=1e-10)
+
+
+def test_cages_by_mesh_and_size_are_printed_and_drawn(tmp_path):
+    """In still water square netting keeps its volume; the deep cage has more drag and keeps less volume."""
+    picture = tmp_path / "curves.png"
+    command = [sys.executable, EXAMPLES / "mesh_and_size.py", "--figure", picture]
+    out = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    rows = [[float(v) for v in line.split()] for line in out.splitlines() if re.match(r" +0\.\d ", line)]
+    shallow, deep = np.array(rows).reshape(2, 6, 10)
+    for cage in (shallow, deep):
+        assert cage[:, 0] == pytest.approx([0.0, 0.1, 0.3, 0.5, 0.7, 0.9])
+        assert cage[0, [1, 4, 7]] == pytest.approx(0.0, abs=1e-9)
+        assert np.all(np.diff(cage[:, [1, 4, 7]], axis=0) > 0.0)
+        assert cage[0, 2] == pytest.approx(100.0, abs=0.5)
+    assert np.all(deep[1:, [1, 4, 7]] > shallow[1:, [1, 4, 7]])
+    assert np.all(deep[2:, [2, 5, 8]] < shallow[2:, [2, 5, 8]])
+    assert picture.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("size", ["shallow", "deep"])
+@pytest.mark.parametrize("mesh", ["square", "diamond", "hexagonal"])
+def test_cages_by_mesh_and_size_have_one_volume_one_weight_and_the_drag_of_their_bars(mesh, size):
+    """Volume, weight in water and drag as built by hand.
+
+    A bar that leans by an angle b from the upright on the wall, at t round from the current, has e.x = -sin b sin t.
+    """
+    made = runpy.run_path(str(EXAMPLES / "mesh_and_size.py"))
+    diameter, depth = made["SIZES"][size]
+    case = made["case_of"](mesh, size, 0.5)
+    net = fyke.build_net(case)
+    laid = made["MESHES"][mesh](np.pi * diameter, depth)
+    assert np.pi / 4 * diameter**2 * depth == pytest.approx(0.3720, abs=5e-4)
+    bars = np.unique(net.panels[0].bars)  # its first column is its last
+    netting, ropes = net.rest_length[bars].sum(), 8 * depth
+    assert netting * made["BAR"] / 2 == pytest.approx(np.pi * diameter * depth, rel=0.045)
+    hung = np.pi / 4 * 9.81 * (115.0 * 2e-3**2 * netting + 355.0 * 4e-3**2 * ropes)
+    assert fyke.build_system(net, case).weight_in_water == pytest.approx(40.0 + hung, rel=2e-3)
+
+    t = 2.0 * np.pi * (np.arange(10_000) + 0.5) / 10_000
+    if mesh == "square":
+        ring = laid.around * diameter * np.sin(np.pi / laid.around)
+        leaning, length = [0.0, 0.5 * np.pi], [laid.around * depth, (laid.down + 1) * ring]
+    elif mesh == "diamond":
+        leaning, length = [np.arcsin(np.pi * diameter / laid.around / 2.0 / laid.bar)], [netting]
+    else:
+        slanted = 2 * laid.around * (laid.down + 1) * laid.bar
+        leaning, length = [np.pi / 3.0, 0.0], [slanted, netting - slanted]
+    drag = 0.0
+    for b, whole in zip(leaning, length, strict=True):
+        along = np.sin(b) * np.sin(t)
+        each = 1.2 * (1.0 - along**2) ** 1.5 + 0.1 * np.abs(along) ** 3
+        drag += 0.5 * 1025.0 * 2e-3 * 0.5**2 * whole * each.mean()
+    alone = fyke.make_system(net, current=(0.5, 0.0, 0.0), water=fyke.Water(density=1025.0))
+    frame = evaluate(alone, fyke.State(0.0, net.positions, np.zeros_like(net.positions)))
+    assert frame.bar_drag[bars].sum() == pytest.approx(drag, rel=3e-3)
+
+
+def test_a_cage_of_diamonds_hangs_as_its_mirror_image():
+    made = runpy.run_path(str(EXAMPLES / "mesh_and_size.py"))
+    result = made["answers"]("diamond", "shallow", (0.5,))[0].result
+    net, mirror = result.net, np.array([1.0, -1.0, 1.0])
+    other = cKDTree(net.positions).query(mirror * net.positions)
+    assert other[0].max() < 1e-9
+    assert np.abs(result.position[-1][other[1]] - mirror * result.position[-1]).max() < 5e-5  # m

@@ -320,6 +320,17 @@ def test_a_cylinder_of_hexagons_encloses_what_its_walls_do(rows):
     assert enclosed_volume(net, net.positions) == pytest.approx(exact, rel=1e-12)
 
 
+@pytest.mark.parametrize("rows", [4, 5])
+def test_rims_of_a_cylinder_of_hexagons_close(rows):
+    """A rim of n hexagons has n knots, none of them left out, evenly round the circle."""
+    net, _, _ = cylinder(9, rows)
+    for side in ("top", "bottom"):
+        rim = net.panels[0].edge(side)
+        assert rim[0] == rim[-1] and len(np.unique(rim)) == len(rim) - 1 == 9
+        apart = np.linalg.norm(np.diff(net.positions[rim], axis=0), axis=1)
+        assert apart == pytest.approx(np.sin(np.pi / 9))
+
+
 def test_hexagons_that_cannot_close_are_refused():
     netting = Netting(thread(1e5), Hexagon(1.5), SIDE)
     with pytest.raises(ValueError, match="only diamond netting is gathered in a tip"):

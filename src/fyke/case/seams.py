@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from .fields import Factor
 from .gear import Part
@@ -26,6 +26,17 @@ def _as_ratio(value: Any) -> Any:
     return value
 
 
+_SCHEMA = WithJsonSchema(
+    {
+        "anyOf": [
+            {"type": "number", "exclusiveMinimum": 0.0, "maximum": 100.0},
+            {"type": "string", "pattern": r"^\s*\d{1,6}\s*:\s*\d{1,6}\s*$"},
+            {"type": "null"},
+        ]
+    }
+)
+
+
 class SeamSpec(Part):
     """A seam: two edges of netting joined knot by knot."""
 
@@ -35,7 +46,7 @@ class SeamSpec(Part):
         "place of the first, or of the one with fewer meshes",
         examples=[["wing.left", "square.right"]],
     )
-    take_up: Annotated[Factor | None, BeforeValidator(_as_ratio)] = Field(
+    take_up: Annotated[Factor | None, BeforeValidator(_as_ratio), _SCHEMA] = Field(
         default=None,
         description="meshes of the first edge over those of the second, taken up evenly; equal counts without it",
         examples=[1.5],

@@ -91,10 +91,16 @@ class Panel:
         return np.asarray((np.array([i, j]) / intervals - 0.5) * np.array(self.size))
 
     def edge(self, which: Side | Corner) -> NDArray[np.int64]:
-        """Knots of the net along an edge, in order from left to right or from below; corners: of a box."""
+        """Knots of the net along an edge, in order from left to right or from below; corners: of a box.
+
+        The rims of netting that closes round end with the knot that they begin with.
+        """
         grid = self.lattice
         if which in ("top", "bottom", "left", "right"):
-            return self.knots[grid.edge(which)]
+            knots = self.knots[grid.edge(which)]
+            # Where a rim of hexagons has no knot in the first column, it has none in the last one that is the first.
+            around = self.closed and which in ("top", "bottom") and knots[0] != knots[-1]
+            return np.append(knots, knots[:1]) if around else knots
         number = int(which.removeprefix("corner")) - 1
         if number >= len(self.folds):
             raise ValueError(f"netting '{self.name}' has no {which}")
