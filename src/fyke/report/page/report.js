@@ -181,7 +181,7 @@
     const aspectratio = { x: sides[0] * grow, y: sides[1] * grow, z: sides[2] * grow };
     const layout = () => {
       const axis = (name, i) => ({ title: { text: `${name} (m)` }, range: [middle[i] - half[i], middle[i] + half[i]], showbackground: false,
-        gridcolor: colour("--line"), linecolor: colour("--soft"), zeroline: false, nticks: 5, showspikes: false });
+        gridcolor: colour("--line"), linecolor: colour("--soft"), zeroline: false, nticks: narrow && name === "z" ? 3 : 5, showspikes: false });
       return { ...looks(), margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "kept", legend: { x: 0, y: 1, bgcolor: "rgba(0,0,0,0)" },
         hoverlabel: { align: "left" }, scene: { aspectmode: "manual", aspectratio, uirevision: "kept", camera: { eye, projection: { type: "perspective" } },
           xaxis: axis("x", 0), yaxis: axis("y", 1), zaxis: axis("z", 2) } };
