@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import struct
+import zlib
 from dataclasses import replace
 
 import numpy as np
@@ -19,6 +21,7 @@ from fyke.report.bars import legend_rows
 from fyke.report.colours import Colouring
 from fyke.report.figures import equilibrium_shape, initial_position, tension_histogram, tension_plan
 from fyke.report.gltf import write_gltf
+from fyke.report.page.packing import Packed, _signed
 from fyke.report.parts import Bars, Knots, Outline, coloured_bars, parts_of, tied_knots
 from fyke.report.plan import _laid_flat
 from fyke.report.sections import _cut, _rows, _triangles, sections
@@ -285,3 +288,15 @@ def test_cuts_and_rows_of_a_cone_are_those_of_geometry(hung):
 def test_a_panel_has_no_sections():
     net = panel(TWINE, mesh="diamond", meshes=(4, 4), bar_length=0.1, size=(0.55, 0.55))
     assert sections(fyke.solve_static(fyke.make_system(net))) is None
+
+
+def test_what_a_page_carries_keeps_its_sign():
+    """The page counts slack bars: 0 stays 0 and tiny pulls stay pulls, beside large pulls and pushes."""
+    for values in ([0.0, 1e-6, 8746.0, 3.0], [0.0, -5605.2, 1e-6, -1e-6, 1871.6], [0.0, 0.0], [-2.0, -1e-9]):
+        asked = np.array(values).reshape(1, -1, 1)
+        high = float(asked.max(initial=0.0)) or 1.0
+        packed = Packed.of(*_signed(asked, high))
+        whole = np.frombuffer(zlib.decompress(base64.b64decode(packed.text)), dtype="<u2")
+        shown = packed.low[0] + packed.step[0] * whole
+        assert np.array_equal(np.sign(shown), np.sign(values))
+        assert np.abs(shown - values).max() <= 1.01 * packed.step[0]

@@ -211,23 +211,21 @@ def box(
         fixed=fixed,
         name=name,
     )
-    if not bottom:
-        return made
+    return _with_floor(made, netting, (nx, ny), (lx, ly), where - [0.0, 0.0, 0.5 * lz]) if bottom else made
+
+
+def _with_floor(
+    walls: Net, netting: Netting, meshes: tuple[int, int], size: tuple[float, float], middle: Array
+) -> Net:
+    """Close the walls of a box below with a flat bottom, joined to them knot by knot; middle: (3,) m, of the bottom."""
 
     def floor(steps: Array, intervals: Array) -> Array:
-        x, y = (steps * np.array([lx, -ly]) / intervals).T
-        return np.asarray(np.column_stack([x, y, np.full(len(x), -0.5 * lz)]) + where)
+        x, y = (steps * np.array([size[0], -size[1]]) / intervals).T
+        return np.asarray(np.column_stack([x, y, np.zeros(len(x))]) + middle)
 
-    below = sheet(
-        netting,
-        (nx, ny),
-        floor,
-        shape="panel",
-        size=(lx, ly),
-        fixed="none",
-        name=f"{name} bottom".strip(),
-    )
-    whole = together([made, below])
+    name = f"{walls.panels[0].name} bottom".strip()
+    below = sheet(netting, meshes, floor, shape="panel", size=size, fixed="none", name=name)
+    whole = together([walls, below])
     wall, flat = whole.panels
     right, near, left, far = (flat.edge(side) for side in ("right", "bottom", "left", "top"))
     round_it = np.concatenate([right[:0:-1], near[:0:-1], left[:-1], far[:-1]])

@@ -66,14 +66,7 @@ def sheet(
     """
     few = _fewer(netting, meshes, closed)
     hexagon = netting.mesh if isinstance(netting.mesh, Hexagon) else None
-    if hexagon and (tip or (closed and hexagon.turned)):
-        raise ValueError(
-            "hexagonal netting closes round with its long bars along the height (T0), and has no tip"
-        )
-    if taper is not None and (closed or tip):
-        raise ValueError("netting whose sides are cut does not close round by itself: join its sides")
-    if taper is not None and netting.group > 1:
-        raise ValueError("netting cut to shape is not grouped: its cuts go mesh by mesh")
+    _refuse(netting, taper, closed=closed, tip=tip)
     grid = lattice(netting.mesh, few.meshes, taper)
     intervals = np.array(grid.intervals, dtype=float)
     at = places(grid, netting.mesh, few.meshes, netting.bar_length, size)
@@ -89,11 +82,7 @@ def sheet(
     inner, chains = _segments(ends, n, s)
     share = (np.arange(1, s) / s)[None, :, None]
     between = positions[ends[:, :1]] * (1.0 - share) + positions[ends[:, 1:]] * share
-    labels += [
-        f"{prefix}{labels[a].removeprefix(prefix)}>{labels[b].removeprefix(prefix)}.{k}"
-        for a, b in (ends.tolist() if s > 1 else ())
-        for k in range(1, s)
-    ]
+    labels += _labels_within(prefix, labels, ends if s > 1 else ends[:0], s)
     inner_count, m = inner.size, len(ends) * s
     twine, density = netting.twine, netting.knot_density
     where = Panel(
@@ -135,6 +124,27 @@ def sheet(
         bar_multiple=np.repeat(bar_multiple, s),
         knot_multiple=np.concatenate([many[own], np.ones(inner_count)]),
     )
+
+
+def _refuse(netting: Netting, taper: Taper | None, *, closed: bool, tip: bool) -> None:
+    """Raise ValueError for netting that cannot close round, be cut or be grouped as it is asked."""
+    if isinstance(netting.mesh, Hexagon) and (tip or (closed and netting.mesh.turned)):
+        raise ValueError(
+            "hexagonal netting closes round with its long bars along the height (T0), and has no tip"
+        )
+    if taper is not None and (closed or tip):
+        raise ValueError("netting whose sides are cut does not close round by itself: join its sides")
+    if taper is not None and netting.group > 1:
+        raise ValueError("netting cut to shape is not grouped: its cuts go mesh by mesh")
+
+
+def _labels_within(prefix: str, labels: list[str], ends: Indices, segments: int) -> list[str]:
+    """Labels "a>b.k" of the knots within bars of so many segments, whose ends (m, 2) have labels."""
+    return [
+        f"{prefix}{labels[a].removeprefix(prefix)}>{labels[b].removeprefix(prefix)}.{k}"
+        for a, b in ends.tolist()
+        for k in range(1, segments)
+    ]
 
 
 def _labels(prefix: str, knots: Indices) -> list[str]:

@@ -162,5 +162,7 @@ def line_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
         span = f"{least:.4g}" if least == most else f"{least:.4g} to {most:.4g}"
         rows.append(("of a line on the sea bed", f"{span} m"))
     if "bed_force" in figures:
-        rows.append(("force of the sea bed", "[{:.4g}, {:.4g}, {:.4g}] N".format(*figures["bed_force"])))
+        force, rounding = figures["bed_force"], 1e-9 * max(map(abs, figures["bed_force"]))
+        told = ", ".join(f"{f if abs(f) > rounding else 0.0:.4g}" for f in force)
+        rows.append(("force of the sea bed", f"[{told}] N"))
     return rows

@@ -310,7 +310,8 @@ def part_words(figures: Mapping[str, Any]) -> list[tuple[str, str]]:
     rows = []
     if "volume" in figures:
         now, built, least = (figures[k] for k in ("volume", "volume_unloaded", "volume_smallest"))
-        words = f"{now:.4g} of {built:.4g} m³, {100.0 * (1.0 - now / built):.3g} % lost"
+        change = f"{100.0 * abs(1.0 - now / built):.3g} % {'gained' if now > built else 'lost'}"
+        words = f"{now:.4g} of {built:.4g} m³, {change}"
         rows.append(("volume", words + (f", {least:.4g} m³ at least" if least < now else "")))
     if "clearance" in figures:
         height = figures["clearance"]

@@ -31,7 +31,7 @@ def _row(line: dict[str, Any]) -> list[tuple[str, Any]]:
         pull, level, up = (line[f"{what}_{end}"] for what in ("tension", "horizontal", "vertical"))
         anchor = ", anchor" if line[f"held_{end}"] else ""
         ends += [(number(pull) + anchor, pull), (f"{number(level)}, {number(up)}", None)]
-        ends.append((f"{line[f'uplift_{end}']:.1f}", line[f"uplift_{end}"]))
+        ends.append((f"{line[f'uplift_{end}']:z.1f}", line[f"uplift_{end}"]))
     return [
         (line["name"] or "–", None),
         (number(line["length"]), line["length"]),

@@ -88,9 +88,24 @@ def scene(result: Result) -> dict[str, Any]:
 def _quantity(result: Result, kept: NDArray[np.int64], quantity: BarQuantity) -> dict[str, Any]:
     values = np.array([quantity.values(result, int(k)) for k in kept])
     high = float(values.max(initial=0.0)) or 1.0
-    packed = Packed.of(values[:, :, None], np.zeros(1), np.array([high]))
+    packed = Packed.of(*_signed(values[:, :, None], high))
     about = {"key": quantity.key, "name": quantity.name, "unit": quantity.unit, "high": high}
     return about | packed.as_json()
+
+
+def _signed(values: Array, high: float) -> tuple[Array, Array, Array]:
+    """Return values to pack and the ends of their range, so that they keep their signs and 0 stays 0.
+
+    Zero lies on a step, and what is smaller than a step becomes one: a bar that bears little is not slack.
+    """
+    least = min(float(values.min(initial=0.0)), 0.0)
+    below = min(int(np.ceil(STEPS * -least / (high - least))), STEPS - 1)
+    step = max(high / (STEPS - below), -least / below if below else 0.0)
+    step = float(
+        np.nextafter(np.float32(step), np.float32(np.inf))
+    )  # few digits, so that multiples are exact
+    away = np.sign(values) * np.maximum(np.abs(values), step)
+    return away, np.array([-below * step]), np.array([(STEPS - below) * step])
 
 
 def _part(part: Bars | Knots | Outline) -> dict[str, Any]:

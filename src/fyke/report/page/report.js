@@ -136,7 +136,7 @@
             continue;
           }
           const line = part.colour ? { color: part.colour, width } : { color: t.c, colorscale: scale(), cmin: 0, cmax: top, width,
-            showscale: !scaled, colorbar: { title: { text: `${about.name} (${about.unit})`, side: "right" }, thickness: 12, len: 0.7, x: 1, xanchor: "right" } };
+            showscale: !scaled, colorbar: { title: { text: `${about.name} (${about.unit})`, side: narrow ? "top" : "right" }, thickness: 12, ...barPlace } };
           scaled = scaled || !part.colour;
           made.push({ type: "scatter3d", mode: "lines", name: part.name, x: t.x, y: t.y, z: t.z, hoverinfo: "skip",
             showlegend: Boolean(part.colour) && first(part.name), line });
@@ -160,6 +160,9 @@
       const [x, y, z] = [0, 1, 2].map((axis) => every.map((bar) => (at(frame, bars[2 * bar], axis) + at(frame, bars[2 * bar + 1], axis)) / 2));
       return { ...unseen({ x, y, z }, every.map((bar) => `${roped[bar] || ""}${label(bar)}<br>${numbers(bar, frame)}`)), name: "bars" };
     };
+    /* Beside the net, and below it on a narrow page. */
+    const narrow = byId("space").clientWidth < 500;
+    const barPlace = narrow ? { orientation: "h", len: 0.9, x: 0.5, xanchor: "center", y: 0, yanchor: "bottom" } : { len: 0.7, x: 1, xanchor: "right" };
     const knotNames = (frame) => {
       const every = scene.knots.map((_, k) => k), [x, y, z] = [0, 1, 2].map((axis) => every.map((k) => at(frame, k, axis)));
       const text = every.map((k) => `${fixed[k] ? "fixed " : ""}knot ${scene.knots[k]}<br>x ${x[k].toFixed(4)} m<br>y ${y[k].toFixed(4)} m<br>z ${z[k].toFixed(4)} m${hangs[k] || ""}`);
@@ -170,14 +173,15 @@
     const half = high.map((h, i) => Math.max(h - low[i], 0.16 * longest) * 0.53), middle = high.map((h, i) => (h + low[i]) / 2);
     const [azimuth, elevation] = scene.eye.map((degrees) => degrees * Math.PI / 180);
     /* Further away on a narrow page, so that the whole net is in the picture. */
-    const away = 2.4 * Math.max(1, 1.1 * byId("space").clientHeight / byId("space").clientWidth);
+    const away = 2.4 * Math.max(1, 1.25 * byId("space").clientHeight / byId("space").clientWidth);
     const eye = { x: Math.cos(elevation) * Math.cos(azimuth) * away, y: Math.cos(elevation) * Math.sin(azimuth) * away, z: Math.sin(elevation) * away };
-    /* As large as a cube of side 1 would be, but never so long that an end is out of the picture. */
-    const sides = half.map((h) => 2 * h), grow = Math.min(1 / Math.cbrt(sides[0] * sides[1] * sides[2]), 1.85 / Math.max(...sides));
+    /* As large as a cube of side 1 would be, but never so long nor so wide that an end or a corner is out of the picture. */
+    const sides = half.map((h) => 2 * h), grow = Math.min(1 / Math.cbrt(sides[0] * sides[1] * sides[2]),
+      1.85 / Math.max(...sides), 2.15 / Math.hypot(sides[0], sides[1]));
     const aspectratio = { x: sides[0] * grow, y: sides[1] * grow, z: sides[2] * grow };
     const layout = () => {
       const axis = (name, i) => ({ title: { text: `${name} (m)` }, range: [middle[i] - half[i], middle[i] + half[i]], showbackground: false,
-        gridcolor: colour("--line"), linecolor: colour("--soft"), zeroline: false, nticks: 5, showspikes: false });
+        gridcolor: colour("--line"), linecolor: colour("--soft"), zeroline: false, nticks: narrow && name === "z" ? 3 : 5, showspikes: false });
       return { ...looks(), margin: { l: 0, r: 0, t: 0, b: 0 }, uirevision: "kept", legend: { x: 0, y: 1, bgcolor: "rgba(0,0,0,0)" },
         hoverlabel: { align: "left" }, scene: { aspectmode: "manual", aspectratio, uirevision: "kept", camera: { eye, projection: { type: "perspective" } },
           xaxis: axis("x", 0), yaxis: axis("y", 1), zaxis: axis("z", 2) } };
