@@ -295,8 +295,8 @@ class _SlotTable:
             row[:, place] = self.properties[:, bar]
             self.bars_row.append(self.bars.keep(row))
             self.shift.append(step)
-            self.begin.append(place.min() // STRIDE * STRIDE)
-            self.end.append(-(-(place.max() + 1) // STRIDE) * STRIDE)
+            self.begin.append(int(place.min()) // STRIDE * STRIDE)
+            self.end.append(-(-(int(place.max()) + 1) // STRIDE) * STRIDE)
             self.both.append(both)
             self.other_row.append(len(self.other))
             if step == SCATTERED:
