@@ -27,7 +27,9 @@ def running(tmp_path):
     """A dynamic run that takes hours, in another process, with a few outputs on disk."""
     text = PANEL.read_text().replace("[8, 8]", "[2, 2]").replace("0.3055", "0.076")
     (tmp_path / "long.toml").write_text(text.replace('kind = "static"', LONG))
-    command = [sys.executable, "-c", "from fyke.cli import main; main()", "run", "long.toml"]
+    # Who runs the tests in the background has Ctrl-C ignored, and so have all their processes.
+    heed = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)"
+    command = [sys.executable, "-c", f"{heed}; from fyke.cli import main; main()", "run", "long.toml"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, text=True)
     file = tmp_path / "long" / "result.nc"
     until = time.monotonic() + 60
