@@ -14,7 +14,7 @@ from rich.text import Text
 from ..case import Case, CaseError, Problem, load_case
 from ..report.figures import write_figure
 from ..report.uncertainty import bands, tornado
-from ..results import unit_of
+from ..results import finite_or_none, unit_of
 from ..results.whole import replacing
 from ..study.inputs import Study, read_study
 from ..study.uncertainty import DONE as ARRIVED
@@ -100,21 +100,17 @@ def _figures(case: Case, ensemble: Ensemble) -> dict[str, Any]:
         "seed": study.seed,
         "failed": sum(run.outcome != ARRIVED for run in ensemble.runs),
         "outputs": {
-            name: {"unit": unit_of(name)} | {key: _finite(value) for key, value in one.items()}
+            name: {"unit": unit_of(name)} | {key: finite_or_none(value) for key, value in one.items()}
             for name, one in spreads.items()
         },
         "tornado": {
             one.key: {
-                name: [_finite(value) for value in found[row, :, place].tolist()]
+                name: [finite_or_none(value) for value in found[row, :, place].tolist()]
                 for place, name in enumerate(study.outputs)
             }
             for row, one in enumerate(study.inputs)
         },
     }
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None
 
 
 def _write(folder: Path, ensemble: Ensemble, figures: dict[str, Any], wishes: Wishes) -> None:

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from math import isfinite
 from pathlib import Path
-from typing import Any
 
 from rich.console import Console
 from rich.text import Text
@@ -14,6 +12,7 @@ from rich.text import Text
 from ..case import CaseError, Problem
 from ..case.keys import nearest
 from ..report.verdicts import write_page
+from ..results import finite_or_none
 from ..results.whole import replacing
 from ..study.claims import LEVELS, claims_in
 from ..study.text import alike, levels_of, markdown, summary_line, worst_of
@@ -60,18 +59,16 @@ def validate_folder(folder: Path, wishes: Wishes) -> int:
         )
     written = _write(folder, report, wishes) if wishes.write and not wishes.only else []
     if wishes.json:
-        print_json({"ok": report.ok, "rows": [_plain(row) for row in report.rows], "seconds": report.seconds})
+        print_json(
+            {
+                "ok": report.ok,
+                "rows": [finite_or_none(asdict(row)) for row in report.rows],
+                "seconds": report.seconds,
+            }
+        )
     else:
         _show(stdout(), report, written, every=wishes.every)
     return DONE if report.ok else NOT_CONVERGED
-
-
-def _plain(row: Judged) -> dict[str, Any]:
-    """A row for JSON, which has no numbers that are none."""
-    return {
-        name: None if isinstance(value, float) and not isfinite(value) else value
-        for name, value in asdict(row).items()
-    }
 
 
 def _chosen(files: list[Path], only: tuple[str, ...]) -> list[Path]:

@@ -3,7 +3,7 @@
 from .audit import Audit, EnergyBudget, audit
 from .checkpoint import CheckpointError, frames_of, load_checkpoint, save_checkpoint
 from .compare import Comparison, MeasurementError, compare
-from .derive import summary, unit_of
+from .derive import finite_or_none, summary, unit_of
 from .layout import frame_bytes
 from .lines import LineFigures, by_line, line_figures, write_lines
 from .loads import LoadRow, PartLoad, load_figures, load_row, worst_of, write_loads
@@ -35,6 +35,7 @@ __all__ = [
     "by_line",
     "by_part",
     "compare",
+    "finite_or_none",
     "flow_direction",
     "frame_bytes",
     "frames_of",

@@ -113,13 +113,13 @@ def summary(
         "force_evaluations": outcome.force_evaluations,
         "audit": None if audit is None else audit.figures(),
     }
-    return {key: _finite_or_none(value) for key, value in figures.items()}
+    return {key: finite_or_none(value) for key, value in figures.items()}
 
 
-def _finite_or_none(value: Any) -> Any:
+def finite_or_none(value: Any) -> Any:
     """JSON knows no NaN and no infinity."""
     if isinstance(value, dict):
-        return {key: _finite_or_none(one) for key, one in value.items()}
+        return {key: finite_or_none(one) for key, one in value.items()}
     if isinstance(value, list):
-        return [_finite_or_none(one) for one in value]
+        return [finite_or_none(one) for one in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

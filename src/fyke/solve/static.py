@@ -115,6 +115,12 @@ def solve_static(
         message += f", begun from {nest.levels}"
     if name == "converged" and s.residual > tolerance:
         message += f"; the asked {tolerance:g} N is below the rounding of the coordinates, {s.floor:.1e} N"
+    return _result(s, (name, message, advice), unstable, began)
+
+
+def _result(s: Equilibrium, verdict: Verdict, unstable: tuple[str, ...], began: float) -> Result:
+    """Result of the last good state; unstable: what to warn of; began: time.perf_counter() at the start."""
+    system, (name, message, advice) = s.system, verdict
     state = State(0.0, s.good + s.origin, np.zeros_like(s.good))
     frame = evaluate(system, state)
     outcome = Outcome(
